@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/status.h"
+
+namespace metamorph::core {
+
+using Index = int;
+
+/// A soft body at rest (MODEL section 3): a triangular mesh with springs on its edges and an
+/// oscillator in every node. Units: cell diameter d, spring constant k, cell mass m all 1.
+/// This is the exchange form; BodyBatch packs many of them for the fast kernels.
+struct Body {
+  std::vector<double> x, y;                     ///< [nodes] position at rest, d
+  std::vector<double> period;                   ///< [nodes] oscillation period T, time units
+  std::vector<double> phase;                    ///< [nodes] phase shift phi, radians
+  std::vector<std::array<Index, 3>> triangles;  ///< counter-clockwise node triples
+  std::vector<std::array<Index, 2>> springs;    ///< edges of the triangles, i < j, ascending
+  std::vector<double> rest_length;              ///< [springs] L0, d
+  std::vector<double> rest_area;                ///< [triangles] S0, d^2
+  std::vector<Index> cell;  ///< [nodes] position in the embryo's cell list; may be empty
+
+  Index node_count() const { return static_cast<Index>(x.size()); }
+};
+
+/// The distinct edges (i < j, ascending) of a set of triangles.
+std::vector<std::array<Index, 2>> edges_of(const std::vector<std::array<Index, 3>>& triangles);
+
+/// Edges with exactly one triangle, directed so that the body lies on their left; ascending by
+/// (first, second). Every outline node has as many outgoing as incoming edges (a pinch has two).
+std::vector<std::array<Index, 2>> outline_of(const std::vector<std::array<Index, 3>>& triangles);
+
+/// Sets springs, rest_length and rest_area from nodes and triangles.
+void set_rest_from_nodes(Body& body);
+
+/// What is wrong with a body, as found by check().
+struct BodyFault {
+  Status status = Status::ok;  ///< ok, or bad_input, bad_geometry, bad_topology
+  std::string what;            ///< one line: field, index, value, what was expected
+};
+
+/// All faults of a body: sizes, finite values, indices, orientation (every triangle
+/// counter-clockwise), coincident nodes (closer than 1e-3 d), areas (below 1e-3 d^2 where given by
+/// the file), isolated nodes, more than one edge-connected component. Empty if the body is sound.
+std::vector<BodyFault> check(const Body& body);
+
+}  // namespace metamorph::core

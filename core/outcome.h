@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/status.h"
+
+namespace metamorph::core {
+
+/// What one animat did in one scene (MODEL section 4, "Outcome").
+struct Outcome {
+  Status status = Status::ok;
+  std::array<double, 2>
+      mean_position{};  ///< final mean node position: x from the start of actuation;
+                        ///< y likewise in water, above the ground on land; d
+  double distance = 0;  ///< by the scene's rule; 0 if the evaluation failed
+  int cells = 0;        ///< nodes of the body
+  int springs = 0;
+  int triangles = 0;
+  std::int64_t steps = 0;        ///< integrator steps taken, settling included
+  double settle_time = 0;        ///< time units until quiet (or time-out)
+  double min_area_ratio = 1;     ///< smallest S/S0 seen
+  double max_speed = 0;          ///< largest node speed seen, d per time unit
+  double longest_spring = 0;     ///< longest rest length, d
+  double long_spring_share = 0;  ///< share of springs with rest length above 1.5 d
+
+  // Of a failure: where it showed.
+  std::int64_t failed_step = -1;  ///< integrator step at which it was detected
+  int failed_index = -1;          ///< node or triangle, by status
+  double failed_value = 0;        ///< the offending speed, area ratio, ...
+};
+
+}  // namespace metamorph::core

@@ -1,0 +1,31 @@
+#include "core/scene.h"
+
+namespace metamorph::core {
+
+Scene water_scene() { return {}; }
+
+Scene land_scene() {
+  Scene scene;
+  scene.name = "land";
+  scene.drag = false;
+  scene.ground = true;
+  scene.step = 0.1;
+  scene.distance = DistanceRule::horizontal;
+  return scene;
+}
+
+Scene land_right_scene() {
+  Scene scene = land_scene();
+  scene.name = "land-right";
+  scene.distance = DistanceRule::rightward;
+  return scene;
+}
+
+Scene slope_scene() {
+  Scene scene = land_right_scene();
+  scene.name = "slope";
+  scene.slope_degrees = 17.0;
+  return scene;
+}
+
+}  // namespace metamorph::core
