@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/reference_system_detail.h"
+#include "kernels/reference/actuation.h"
+#include "kernels/reference/drag.h"
+#include "kernels/reference/ground.h"
+#include "kernels/reference/pressure.h"
+#include "kernels/reference/spring.h"
+
+namespace metamorph::core {
+
+namespace ref = kernels::reference;
+
+namespace {
+
+std::vector<int> ends_of(const std::vector<std::array<Index, 2>>& edges) {
+  std::vector<int> nodes;
+  for (const auto& edge : edges) nodes.insert(nodes.end(), edge.begin(), edge.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+}  // namespace
+
+ReferenceSystem::ReferenceSystem(const Body& body, const Scene& scene)
+    : x(body.x),
+      y(body.y),
+      vx(body.x.size()),
+      vy(body.x.size()),
+      ax(body.x.size()),
+      ay(body.x.size()),
+      body_(body),
+      scene_(scene),
+      outline_(outline_of(body.triangles)),
+      outline_nodes_(ends_of(outline_)),
+      length_(body.rest_length),
+      scratch_(12, std::vector<double>(body.x.size())) {
+  if (scene.ground) {
+    const double slope = scene.slope_degrees * std::numbers::pi / 180;
+    gravity_ = {-scene.gravity * std::sin(slope), -scene.gravity * std::cos(slope)};
+    const double lowest = *std::min_element(y.begin(), y.end());
+    for (double& height : y) height -= lowest;
+  }
+  if (scene.self_collision) {
+    threshold_.resize(outline_nodes_.size() * outline_.size());
+    ref::set_collision_thresholds(outline_nodes_, outline_, scene.collision_gap, x, y, threshold_);
+  }
+}
+
+ref::CollisionPairs ReferenceSystem::collision_pairs() const {
+  return {outline_nodes_, outline_, threshold_};
+}
+
+ref::PressureCells ReferenceSystem::pressure_cells() const {
+  return {body_.triangles, body_.rest_area, scene_.min_pressure_area};
+}
+
+void ReferenceSystem::set_spring_lengths(double t) {
+  const double amplitude =
+      settling_ ? 0 : scene_.amplitude * ref::ramp(t, scene_.ramp_steps * paper_step);
+  if (amplitude == 0)
+    length_ = body_.rest_length;
+  else
+    ref::actuate(body_.springs, body_.rest_length, {body_.period, body_.phase}, amplitude, t,
+                 length_);
+}
+
+void ReferenceSystem::forces(const ref::Nodes& nodes, double t, const ref::Forces& sums,
+                             std::span<double> normal) {
+  std::fill(sums.x.begin(), sums.x.end(), 0.0);
+  std::fill(sums.y.begin(), sums.y.end(), 0.0);
+  std::fill(normal.begin(), normal.end(), 0.0);
+  set_spring_lengths(t);
+  ref::add_spring_forces(body_.springs, length_, scene_.stiffness,
+                         settling_ ? scene_.settle_damping : scene_.damping, nodes, sums);
+  if (scene_.pressure != 0)
+    ref::add_pressure_forces(pressure_cells(), scene_.pressure, nodes, sums);
+  if (scene_.drag)
+    ref::add_drag_forces(outline_, scene_.drag_normal, scene_.drag_tangential, nodes, sums);
+  if (scene_.ground) {
+    ref::add_weight(gravity_, mass, sums);
+    ref::add_ground_forces(scene_.ground_stiffness, scene_.ground_damping, nodes, normal, sums);
+  }
+  if (scene_.self_collision)
+    ref::add_collision_forces(collision_pairs(), scene_.collision_stiffness, nodes, sums);
+  if (settling_) ref::add_node_drag(scene_.settle_drag, nodes, sums);
+}
+
+void ReferenceSystem::step(ReferenceMethod method, double t, double h) {
+  const ref::Workspace work{scratch_[0], scratch_[1], scratch_[2],  scratch_[3],
+                            scratch_[4], scratch_[5], scratch_[6],  scratch_[7],
+                            scratch_[8], scratch_[9], scratch_[10], scratch_[11]};
+  const ref::Step step{t, h, mass, scene_.ground ? scene_.friction : 0};
+  const auto force = [this](const ref::Nodes& nodes, double time, const ref::Forces& sums,
+                            std::span<double> normal) { forces(nodes, time, sums, normal); };
+  switch (method) {
+    case ReferenceMethod::symplectic_euler:
+      return ref::symplectic_euler(state(), work, step, force);
+    case ReferenceMethod::drift_kick_drift:
+      return ref::drift_kick_drift(state(), work, step, force);
+    case ReferenceMethod::velocity_verlet:
+      return ref::velocity_verlet(state(), work, step, force);
+    case ReferenceMethod::midpoint:
+      return ref::midpoint(state(), work, step, force);
+    case ReferenceMethod::runge_kutta_4:
+      return ref::runge_kutta_4(state(), work, step, force);
+  }
+}
+
+double ReferenceSystem::potential_energy(double t) {
+  set_spring_lengths(t);
+  double energy = ref::spring_energy(body_.springs, length_, scene_.stiffness, nodes());
+  if (scene_.pressure != 0)
+    energy += ref::pressure_energy(pressure_cells(), scene_.pressure, nodes());
+  if (scene_.ground)
+    energy += ref::weight_energy(gravity_, mass, nodes()) +
+              ref::ground_energy(scene_.ground_stiffness, nodes());
+  if (scene_.self_collision)
+    energy += ref::collision_energy(collision_pairs(), scene_.collision_stiffness, nodes());
+  return energy;
+}
+
+double ReferenceSystem::kinetic_energy() const {
+  double energy = 0;
+  for (std::size_t i = 0; i < vx.size(); ++i) energy += mass * (vx[i] * vx[i] + vy[i] * vy[i]) / 2;
+  return energy;
+}
+
+ref::Health ReferenceSystem::examine(double h) const {
+  return ref::examine(pressure_cells(), nodes(), h, {});
+}
+
+std::array<double, 2> ReferenceSystem::mean_position() const {
+  std::array<double, 2> mean{};
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    mean[0] += x[i];
+    mean[1] += y[i];
+  }
+  for (double& coordinate : mean) coordinate /= static_cast<double>(x.size());
+  return mean;
+}
+
+double ReferenceSystem::max_speed() const {
+  double squared = 0;
+  for (std::size_t i = 0; i < vx.size(); ++i)
+    squared = std::max(squared, vx[i] * vx[i] + vy[i] * vy[i]);
+  return std::sqrt(squared);
+}
+
+}  // namespace metamorph::core

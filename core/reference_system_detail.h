@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/body.h"
+#include "core/reference_simulation.h"
+#include "core/scene.h"
+#include "kernels/reference/checks.h"
+#include "kernels/reference/gravity.h"
+#include "kernels/reference/integrators.h"
+#include "kernels/reference/self_collision.h"
+#include "kernels/reference/views.h"
+
+namespace metamorph::core {
+
+/// A body in a scene, with its state and the arrays of the reference kernels. Units: d, m and k.
+class ReferenceSystem {
+ public:
+  /// Copies both. The body starts at rest as it is given; on the ground it is lowered or lifted
+  /// until its lowest node is at y = 0. Collision thresholds are those of the body's positions.
+  ReferenceSystem(const Body& body, const Scene& scene);
+
+  /// Settling: no actuation, settle_damping and settle_drag. Otherwise (at first) the run itself.
+  void set_settling(bool settling) { settling_ = settling; }
+
+  /// One step of size h from time t (time units since the start of actuation).
+  void step(ReferenceMethod method, double t, double h);
+
+  /// Sums of all forces of the scene, friction left out, and the ground's normal force per node.
+  void forces(const kernels::reference::Nodes& nodes, double t,
+              const kernels::reference::Forces& sums, std::span<double> normal);
+
+  /// Energy of everything that is conservative: springs at the rest lengths of time t, pressure,
+  /// weight, ground, self-collision.
+  double potential_energy(double t);
+  double kinetic_energy() const;
+
+  kernels::reference::Health examine(double h) const;
+  kernels::reference::State state() { return {x, y, vx, vy, ax, ay}; }
+  kernels::reference::Nodes nodes() const { return {x, y, vx, vy}; }
+  kernels::reference::CollisionPairs collision_pairs() const;
+  kernels::reference::PressureCells pressure_cells() const;
+  std::array<double, 2> mean_position() const;
+  double max_speed() const;
+  const std::vector<std::array<Index, 2>>& outline() const { return outline_; }
+
+  double mass = 1;             ///< of every node, m
+  std::vector<double> x, y;    ///< [nodes] position, d
+  std::vector<double> vx, vy;  ///< [nodes] velocity, d per time unit
+  std::vector<double> ax, ay;  ///< [nodes] acceleration of the previous step, without friction
+
+ private:
+  void set_spring_lengths(double t);
+
+  Body body_;
+  Scene scene_;
+  bool settling_ = false;
+  kernels::reference::Gravity gravity_;
+  std::vector<std::array<Index, 2>> outline_;
+  std::vector<int> outline_nodes_;  // ascending
+  std::vector<double> threshold_;   // [outline nodes x outline edges]
+  std::vector<double> length_;      // [springs] actuated rest length
+  std::vector<std::vector<double>> scratch_;
+};
+
+}  // namespace metamorph::core
