@@ -33,6 +33,12 @@ std::vector<std::array<Index, 2>> edges_of(const std::vector<std::array<Index, 3
 /// (first, second). Every outline node has as many outgoing as incoming edges (a pinch has two).
 std::vector<std::array<Index, 2>> outline_of(const std::vector<std::array<Index, 3>>& triangles);
 
+/// Area of a triangle of the body from its nodes, d^2; positive if counter-clockwise.
+double signed_area(const Body& body, const std::array<Index, 3>& triangle);
+
+/// Distance of a spring's nodes, d.
+double length(const Body& body, const std::array<Index, 2>& spring);
+
 /// Sets springs, rest_length and rest_area from nodes and triangles.
 void set_rest_from_nodes(Body& body);
 
@@ -42,9 +48,13 @@ struct BodyFault {
   std::string what;            ///< one line: field, index, value, what was expected
 };
 
-/// All faults of a body: sizes, finite values, indices, orientation (every triangle
-/// counter-clockwise), coincident nodes (closer than 1e-3 d), areas (below 1e-3 d^2 where given by
-/// the file), isolated nodes, more than one edge-connected component. Empty if the body is sound.
+/// All faults of a body: sizes, finite values, periods > 0, indices, coincident nodes (closer than
+/// 1e-3 d), orientation (every triangle counter-clockwise, with an area), rest lengths and rest
+/// areas below 1e-3 where they are not those of the nodes, isolated nodes, edges with overlapping
+/// or more than two triangles, more than one edge-connected component, springs other than the edges
+/// of the triangles. Empty if the body is sound. Where sizes or indices are wrong, what depends on
+/// them is not looked at. A pinch (a node that alone holds two parts of one component together)
+/// and a hole are no faults.
 std::vector<BodyFault> check(const Body& body);
 
 }  // namespace metamorph::core
