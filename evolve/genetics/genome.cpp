@@ -1,41 +1,258 @@
 #include "evolve/genetics/genome.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <map>
+#include <cmath>
+#include <set>
+#include <string_view>
+#include <utility>
 
 namespace metamorph::evolve {
 
-core::Network compile(const Genome& genome) {
-  // Incoming links of every computed node, in order of innovation.
-  std::map<int, std::vector<const LinkGene*>> incoming;
-  std::map<int, int> slot;  // node id -> value slot, once it has one
-  for (const NodeGene& node : genome.nodes) {
-    if (node.kind == NodeKind::input) {
-      slot[node.id] = node.id;
-    } else {
-      incoming[node.id];
+namespace {
+
+std::string_view kind_name(NodeKind kind) {
+  switch (kind) {
+    case NodeKind::input:
+      return "input";
+    case NodeKind::output:
+      return "output";
+    case NodeKind::hidden:
+      break;
+  }
+  return "hidden";
+}
+
+// Position of a node among the ascending ids, or -1.
+int position(const Genome& genome, int id) {
+  const auto at =
+      std::lower_bound(genome.nodes.begin(), genome.nodes.end(), id,
+                       [](const NodeGene& node, int wanted) { return node.id < wanted; });
+  return at != genome.nodes.end() && at->id == id ? static_cast<int>(at - genome.nodes.begin())
+                                                  : -1;
+}
+
+// The links as positions of nodes, grouped by the node they leave: those of node n are
+// link[first[n]] .. link[first[n + 1] - 1], in order of innovation.
+struct Adjacency {
+  std::vector<int> from, to;  // [links], -1 where the end is missing
+  std::vector<int> first;     // [nodes + 1]
+  std::vector<int> link;      // [links]
+};
+
+Adjacency outgoing_links(const Genome& genome) {
+  const std::size_t nodes = genome.nodes.size();
+  Adjacency graph;
+  graph.first.assign(nodes + 1, 0);
+  graph.from.reserve(genome.links.size());
+  graph.to.reserve(genome.links.size());
+  for (const LinkGene& link : genome.links) {
+    int from = position(genome, link.from);
+    const int to = position(genome, link.to);
+    if (to < 0) from = -1;
+    graph.from.push_back(from);
+    graph.to.push_back(to);
+    if (from >= 0) ++graph.first[static_cast<std::size_t>(from) + 1];
+  }
+  for (std::size_t n = 0; n < nodes; ++n) graph.first[n + 1] += graph.first[n];
+  graph.link.resize(static_cast<std::size_t>(graph.first[nodes]));
+  std::vector<int> next(graph.first.begin(), graph.first.end() - 1);
+  for (std::size_t l = 0; l < genome.links.size(); ++l) {
+    if (graph.from[l] < 0) continue;
+    graph.link[static_cast<std::size_t>(next[static_cast<std::size_t>(graph.from[l])]++)] =
+        static_cast<int>(l);
+  }
+  return graph;
+}
+
+// One topological sweep: positions of nodes in an order in which every link points forward, and the
+// depth of each. Nodes on or behind a cycle are missing from the order.
+struct Sweep {
+  std::vector<int> order;
+  std::vector<int> depth;  // [nodes]
+};
+
+Sweep sweep(const Adjacency& graph) {
+  const std::size_t nodes = graph.first.size() - 1;
+  Sweep result;
+  result.depth.assign(nodes, 0);
+  std::vector<int> waiting(nodes, 0);
+  for (std::size_t l = 0; l < graph.to.size(); ++l) {
+    if (graph.from[l] >= 0) ++waiting[static_cast<std::size_t>(graph.to[l])];
+  }
+  result.order.reserve(nodes);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    if (waiting[n] == 0) result.order.push_back(static_cast<int>(n));
+  }
+  for (std::size_t done = 0; done < result.order.size(); ++done) {
+    const std::size_t n = static_cast<std::size_t>(result.order[done]);
+    for (int e = graph.first[n]; e < graph.first[n + 1]; ++e) {
+      const std::size_t l = static_cast<std::size_t>(graph.link[static_cast<std::size_t>(e)]);
+      const std::size_t to = static_cast<std::size_t>(graph.to[l]);
+      result.depth[to] = std::max(result.depth[to], result.depth[n] + 1);
+      if (--waiting[to] == 0) result.order.push_back(static_cast<int>(to));
     }
   }
-  for (const LinkGene& link : genome.links) incoming[link.to].push_back(&link);
+  return result;
+}
 
-  core::Network network;
-  // Repeatedly take the lowest id whose sources all have a slot. The genome has no cycle, so every
-  // round takes at least one.
-  while (!incoming.empty()) {
-    const auto ready = std::find_if(incoming.begin(), incoming.end(), [&](const auto& entry) {
-      return std::all_of(entry.second.begin(), entry.second.end(),
-                         [&](const LinkGene* link) { return slot.contains(link->from); });
-    });
-    for (const LinkGene* link : ready->second) {
-      network.source.push_back(slot.at(link->from));
-      network.weight.push_back(static_cast<float>(link->weight));
+void check_nodes(const Genome& genome, std::vector<std::string>& faults) {
+  bool ascending = true;
+  for (std::size_t n = 0; n < genome.nodes.size(); ++n) {
+    const NodeGene& node = genome.nodes[n];
+    if (node.id < 0) {
+      faults.push_back(fmt::format("node {}: the id is negative", node.id));
+    } else if (node.kind != kind_of(node.id)) {
+      faults.push_back(
+          fmt::format("node {}: kind is {}, but ids 0-5 are inputs, 6-12 outputs, 13 "
+                      "and above hidden",
+                      node.id, kind_name(node.kind)));
     }
-    slot[ready->first] = core::network_inputs + network.node_count();
-    network.first_link.push_back(static_cast<int>(network.source.size()));
-    incoming.erase(ready);
+    if (n > 0 && genome.nodes[n - 1].id >= node.id) {
+      ascending = false;
+      faults.push_back(fmt::format("node {}: follows node {}, but ids must ascend", node.id,
+                                   genome.nodes[n - 1].id));
+    }
+  }
+  if (!ascending) return;
+  for (int id = 0; id < first_hidden; ++id) {
+    if (position(genome, id) < 0) {
+      faults.push_back(fmt::format("node {}: this {} is missing", id, kind_name(kind_of(id))));
+    }
+  }
+}
+
+void check_links(const Genome& genome, const std::set<int>& ids, std::vector<std::string>& faults) {
+  std::set<std::pair<int, int>> pairs;
+  for (std::size_t l = 0; l < genome.links.size(); ++l) {
+    const LinkGene& link = genome.links[l];
+    const std::string name = fmt::format("link {} ({} -> {})", link.innovation, link.from, link.to);
+    if (link.innovation < 0) faults.push_back(name + ": the innovation number is negative");
+    if (l > 0 && genome.links[l - 1].innovation >= link.innovation) {
+      faults.push_back(fmt::format("{}: follows innovation {}, but innovation numbers must ascend",
+                                   name, genome.links[l - 1].innovation));
+    }
+    for (const int end : {link.from, link.to}) {
+      if (!ids.contains(end)) faults.push_back(fmt::format("{}: there is no node {}", name, end));
+    }
+    if (kind_of(link.from) == NodeKind::output) faults.push_back(name + ": leaves an output");
+    if (kind_of(link.to) == NodeKind::input) faults.push_back(name + ": enters an input");
+    if (!std::isfinite(link.weight)) faults.push_back(name + ": the weight is not finite");
+    if (!pairs.insert({link.from, link.to}).second) {
+      faults.push_back(name + ": a second link between the same nodes");
+    }
+  }
+}
+
+// Names the nodes of one cycle, if there is any.
+void check_cycles(const Genome& genome, std::vector<std::string>& faults) {
+  const Adjacency graph = outgoing_links(genome);
+  const Sweep swept = sweep(graph);
+  if (swept.order.size() == genome.nodes.size()) return;
+  std::vector<bool> swept_over(genome.nodes.size(), false);
+  for (const int n : swept.order) swept_over[static_cast<std::size_t>(n)] = true;
+  // Every node left has a predecessor that is left: walking backwards must meet itself.
+  std::vector<int> source(genome.nodes.size(), -1);
+  for (std::size_t l = 0; l < graph.to.size(); ++l) {
+    if (graph.from[l] < 0 || swept_over[static_cast<std::size_t>(graph.from[l])]) continue;
+    source[static_cast<std::size_t>(graph.to[l])] = graph.from[l];
+  }
+  std::vector<bool> visited(genome.nodes.size(), false);
+  int at =
+      static_cast<int>(std::find(swept_over.begin(), swept_over.end(), false) - swept_over.begin());
+  while (!visited[static_cast<std::size_t>(at)]) {
+    visited[static_cast<std::size_t>(at)] = true;
+    at = source[static_cast<std::size_t>(at)];
+  }
+  const int id = genome.nodes[static_cast<std::size_t>(at)].id;
+  std::string path = std::to_string(id);
+  for (int n = source[static_cast<std::size_t>(at)];; n = source[static_cast<std::size_t>(n)]) {
+    path.insert(0, fmt::format("{} -> ", genome.nodes[static_cast<std::size_t>(n)].id));
+    if (n == at) break;
+  }
+  faults.push_back("links close a cycle: " + path);
+}
+
+}  // namespace
+
+std::vector<std::string> check(const Genome& genome) {
+  std::vector<std::string> faults;
+  check_nodes(genome, faults);
+  std::set<int> ids;
+  for (const NodeGene& node : genome.nodes) ids.insert(node.id);
+  check_links(genome, ids, faults);
+  const bool searchable = std::adjacent_find(genome.nodes.begin(), genome.nodes.end(),
+                                             [](const NodeGene& a, const NodeGene& b) {
+                                               return a.id >= b.id;
+                                             }) == genome.nodes.end();
+  if (searchable) check_cycles(genome, faults);
+  return faults;
+}
+
+core::Network compile(const Genome& genome) {
+  const Adjacency graph = outgoing_links(genome);
+  const Sweep swept = sweep(graph);
+  const std::size_t nodes = genome.nodes.size();
+
+  // Backwards along the order: which nodes reach an output.
+  std::vector<bool> useful(nodes, false);
+  int deepest = 0;
+  for (auto n = swept.order.rbegin(); n != swept.order.rend(); ++n) {
+    const std::size_t node = static_cast<std::size_t>(*n);
+    deepest = std::max(deepest, swept.depth[node]);
+    bool reaches = genome.nodes[node].kind == NodeKind::output;
+    for (int e = graph.first[node]; e < graph.first[node + 1] && !reaches; ++e) {
+      const std::size_t l = static_cast<std::size_t>(graph.link[static_cast<std::size_t>(e)]);
+      reaches = useful[static_cast<std::size_t>(graph.to[l])];
+    }
+    useful[node] = reaches;
+  }
+
+  // Counting sort by depth; nodes of one depth stay in order of id. Slots follow this order.
+  std::vector<int> first_of_depth(static_cast<std::size_t>(deepest) + 2, 0);
+  const auto computed = [&](std::size_t n) {
+    return useful[n] && genome.nodes[n].kind != NodeKind::input;
+  };
+  for (std::size_t n = 0; n < nodes; ++n) {
+    if (computed(n)) ++first_of_depth[static_cast<std::size_t>(swept.depth[n]) + 1];
+  }
+  for (std::size_t d = 1; d < first_of_depth.size(); ++d)
+    first_of_depth[d] += first_of_depth[d - 1];
+  const int count = first_of_depth.back();
+  std::vector<int> slot(nodes, -1);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    if (genome.nodes[n].kind == NodeKind::input) {
+      slot[n] = genome.nodes[n].id;
+    } else if (computed(n)) {
+      slot[n] = core::network_inputs + first_of_depth[static_cast<std::size_t>(swept.depth[n])]++;
+    }
+  }
+
+  // Incoming links of every slot, in order of innovation because the genome lists them so.
+  core::Network network;
+  network.first_link.assign(static_cast<std::size_t>(count) + 1, 0);
+  const auto target = [&](std::size_t l) {
+    return slot[static_cast<std::size_t>(graph.to[l])] - core::network_inputs;
+  };
+  for (std::size_t l = 0; l < genome.links.size(); ++l) {
+    if (target(l) >= 0) ++network.first_link[static_cast<std::size_t>(target(l)) + 1];
+  }
+  for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
+    network.first_link[n + 1] += network.first_link[n];
+  }
+  std::vector<int> next(network.first_link.begin(), network.first_link.end() - 1);
+  network.source.resize(static_cast<std::size_t>(network.first_link.back()));
+  network.weight.resize(network.source.size());
+  for (std::size_t l = 0; l < genome.links.size(); ++l) {
+    if (target(l) < 0) continue;
+    const std::size_t at = static_cast<std::size_t>(next[static_cast<std::size_t>(target(l))]++);
+    network.source[at] = slot[static_cast<std::size_t>(graph.from[l])];
+    network.weight[at] = static_cast<float>(genome.links[l].weight);
   }
   for (int o = 0; o < core::network_outputs; ++o) {
-    network.output[static_cast<std::size_t>(o)] = slot.at(core::network_inputs + o);
+    network.output[static_cast<std::size_t>(o)] =
+        slot[static_cast<std::size_t>(position(genome, core::network_inputs + o))];
   }
   return network;
 }

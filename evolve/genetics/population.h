@@ -38,6 +38,7 @@ struct NeatSettings {
   double weight_change = 1.0;
   double weight_limit = 8.0;
   double fitness_floor = 1e-4;
+  int clone_tries = 10;  ///< times a child identical to an earlier one is bred again, at most
 };
 
 /// Who an individual is. Parent -1: none (generation 0); both equal -1 or second -1: asexual.
@@ -74,9 +75,11 @@ struct PopulationState {
 PopulationState first_generation(const NeatSettings& settings, std::uint64_t seed);
 
 /// Breeds the next generation in place: records the fitness of the present one in its species,
-/// breeds exactly settings.population children, places them in species. `fitness` >= 0, one per
-/// genome. `restart_records`: every species forgets its best fitness first (progressive search
-/// while its weight changes). The same bits for any thread count.
+/// breeds exactly settings.population children, places them in species. `fitness` finite and >= 0,
+/// one per genome (std::invalid_argument otherwise). `restart_records`: every species forgets its
+/// best fitness first (progressive search while its weight changes). The result depends on the
+/// arguments alone; the same bits for any thread count. The fittest individual always lives on as
+/// a copy. Children stand in order of species, each species' champion first.
 void next_generation(PopulationState& state, const NeatSettings& settings,
                      std::span<const double> fitness, bool restart_records, int threads);
 

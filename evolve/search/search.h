@@ -57,7 +57,7 @@ SearchState initial_state(const SearchSettings& settings);
 /// itself for one.
 double scalar_fitness(const Evaluation& evaluation);
 
-/// w(g) of eq 7.
+/// w(g) of eq 7: 0 before a third of the generations, 1 from two thirds on, linear between.
 double progressive_weight(int generation, int generations);
 
 /// True if generation g of the search evaluates trial t for the whole population.
@@ -67,7 +67,15 @@ bool evaluates_trial(SearchKind kind, int trial, int generation, int generations
 bool restarts_records(SearchKind kind, int generation, int generations);
 
 /// Scores a generation by the search's rule and updates its memory: one score >= 0 per individual.
-/// `individuals` are the ids that go with the evaluations.
+/// `individuals` are the ids that go with the evaluations; all have the same one or two trials
+/// (std::invalid_argument otherwise). The penalty multiplies every score. The same bits for any
+/// thread count.
+/// - simple: scalar_fitness().
+/// - progressive: eq 7; scalar_fitness() where there is one trial only.
+/// - novelty: eq 8 among the population and the archive as it was before this generation. Whoever
+///   fails, is empty, has no body or was not evaluated in a trial scores 0, is nobody's neighbour
+///   and stays out of the archive. The archive takes novelties as they are before the penalty. With
+///   fewer than k others the mean is over all of them; the only one there is scores the threshold.
 std::vector<double> score_generation(const SearchSettings& settings, SearchState& state,
                                      std::span<const Evaluation> evaluations,
                                      std::span<const std::int64_t> individuals, int generation,

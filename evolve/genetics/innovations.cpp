@@ -1,0 +1,61 @@
+#include "evolve/genetics/innovations.h"
+
+#include <algorithm>
+
+namespace metamorph::evolve {
+
+namespace {
+
+void insert_link(Genome& genome, const LinkGene& link) {
+  const auto at = std::lower_bound(
+      genome.links.begin(), genome.links.end(), link,
+      [](const LinkGene& a, const LinkGene& b) { return a.innovation < b.innovation; });
+  genome.links.insert(at, link);
+}
+
+void insert_node(Genome& genome, int id) {
+  const auto at = std::lower_bound(genome.nodes.begin(), genome.nodes.end(), id,
+                                   [](const NodeGene& node, int key) { return node.id < key; });
+  genome.nodes.insert(at, {id, NodeKind::hidden});
+}
+
+}  // namespace
+
+Innovations::Innovations(int& next_innovation, int& next_node)
+    : next_innovation_(next_innovation), next_node_(next_node) {}
+
+int Innovations::link_number(int from, int to) {
+  const auto [entry, is_new] = links_.try_emplace({from, to}, next_innovation_);
+  if (is_new) ++next_innovation_;
+  return entry->second;
+}
+
+Innovations::Split Innovations::split_numbers(int from, int to) {
+  const auto [entry, is_new] =
+      splits_.try_emplace({from, to}, Split{next_node_, next_innovation_, next_innovation_ + 1});
+  if (is_new) {
+    ++next_node_;
+    next_innovation_ += 2;
+  }
+  return entry->second;
+}
+
+void Innovations::apply(const StructuralChange& change, const NeatSettings& settings,
+                        Genome& genome) {
+  if (change.kind == MutationKind::add_link) {
+    insert_link(genome,
+                {link_number(change.from, change.to), change.from, change.to, change.weight});
+  } else if (change.kind == MutationKind::add_node) {
+    const auto old = std::find_if(
+        genome.links.begin(), genome.links.end(),
+        [&](const LinkGene& link) { return link.from == change.from && link.to == change.to; });
+    const double weight = old->weight;
+    genome.links.erase(old);
+    const Split split = split_numbers(change.from, change.to);
+    insert_node(genome, split.node);
+    insert_link(genome, {split.in, change.from, split.node, std::min(1.0, settings.weight_limit)});
+    insert_link(genome, {split.out, split.node, change.to, weight});
+  }
+}
+
+}  // namespace metamorph::evolve

@@ -1,0 +1,161 @@
+#include "evolve/genetics/mutation.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "evolve/genetics/seed_genome.h"
+
+namespace metamorph::evolve {
+
+namespace {
+
+std::uint32_t draw_below(std::size_t n, core::RandomStream& stream) {
+  return stream.below(static_cast<std::uint32_t>(n));
+}
+
+bool mutate_weights(Genome& genome, const NeatSettings& settings, core::RandomStream& stream) {
+  if (genome.links.empty()) return false;
+  if (stream.chance(settings.severe)) {
+    for (LinkGene& link : genome.links) link.weight = new_weight(settings, stream);
+  } else {
+    for (LinkGene& link : genome.links) {
+      link.weight = std::clamp(link.weight + settings.weight_change * stream.triangular(),
+                               -settings.weight_limit, settings.weight_limit);
+    }
+  }
+  return true;
+}
+
+bool linked(const Genome& genome, int from, int to) {
+  return std::any_of(genome.links.begin(), genome.links.end(),
+                     [&](const LinkGene& link) { return link.from == from && link.to == to; });
+}
+
+// Whether a path of links leads from one node to another (every node reaches itself).
+bool reaches(const Genome& genome, int from, int to) {
+  std::vector<int> reached = {from};
+  for (std::size_t next = 0; next < reached.size(); ++next) {
+    if (reached[next] == to) return true;
+    for (const LinkGene& link : genome.links) {
+      if (link.from == reached[next] &&
+          std::find(reached.begin(), reached.end(), link.to) == reached.end()) {
+        reached.push_back(link.to);
+      }
+    }
+  }
+  return false;
+}
+
+bool addable(const Genome& genome, int from, int to) {
+  return !linked(genome, from, to) && !reaches(genome, to, from);
+}
+
+bool add_link(const Genome& genome, StructuralChange& change, const NeatSettings& settings,
+              core::RandomStream& stream) {
+  std::vector<int> sources, targets;
+  for (const NodeGene& node : genome.nodes) {
+    if (node.kind != NodeKind::output) sources.push_back(node.id);
+    if (node.kind != NodeKind::input) targets.push_back(node.id);
+  }
+  change.kind = MutationKind::add_link;
+  // Drawing until a pair fits and drawing from the list of all fitting pairs have the same
+  // distribution. The list is long, so it is made only where few pairs fit.
+  constexpr int quick_tries = 32;
+  bool found = false;
+  for (int i = 0; i < quick_tries && !found; ++i) {
+    change.from = sources[draw_below(sources.size(), stream)];
+    change.to = targets[draw_below(targets.size(), stream)];
+    found = addable(genome, change.from, change.to);
+  }
+  if (!found) {
+    std::vector<std::pair<int, int>> pairs;
+    for (const int from : sources) {
+      for (const int to : targets) {
+        if (addable(genome, from, to)) pairs.emplace_back(from, to);
+      }
+    }
+    if (pairs.empty()) {
+      change = {};
+      return false;
+    }
+    std::tie(change.from, change.to) = pairs[draw_below(pairs.size(), stream)];
+  }
+  change.weight = new_weight(settings, stream);
+  return true;
+}
+
+bool add_node(const Genome& genome, StructuralChange& change, core::RandomStream& stream) {
+  std::vector<const LinkGene*> splittable;
+  for (const LinkGene& link : genome.links) {
+    if (link.from != bias_input) splittable.push_back(&link);
+  }
+  if (splittable.empty()) return false;
+  const LinkGene& link = *splittable[draw_below(splittable.size(), stream)];
+  change = {MutationKind::add_node, link.from, link.to, 0};
+  return true;
+}
+
+bool remove_link(Genome& genome, core::RandomStream& stream) {
+  if (genome.links.size() < 2) return false;
+  const auto at = genome.links.begin() + draw_below(genome.links.size(), stream);
+  const std::array<int, 2> ends = {at->from, at->to};
+  genome.links.erase(at);
+  for (const int end : ends) {
+    const bool used = kind_of(end) != NodeKind::hidden ||
+                      std::any_of(genome.links.begin(), genome.links.end(),
+                                  [&](const LinkGene& l) { return l.from == end || l.to == end; });
+    if (!used) std::erase_if(genome.nodes, [&](const NodeGene& node) { return node.id == end; });
+  }
+  return true;
+}
+
+bool attempt(MutationKind kind, Genome& genome, StructuralChange& change,
+             const NeatSettings& settings, core::RandomStream& stream) {
+  switch (kind) {
+    case MutationKind::weights:
+      return mutate_weights(genome, settings, stream);
+    case MutationKind::add_link:
+      return add_link(genome, change, settings, stream);
+    case MutationKind::add_node:
+      return add_node(genome, change, stream);
+    case MutationKind::remove_link:
+      return remove_link(genome, stream);
+    case MutationKind::none:
+      break;
+  }
+  return false;
+}
+
+}  // namespace
+
+MutationKind mutate(Genome& genome, StructuralChange& change, const NeatSettings& settings,
+                    core::RandomStream& stream) {
+  std::array<std::pair<MutationKind, double>, 4> wheel = {
+      {{MutationKind::weights, settings.mutate_weights},
+       {MutationKind::add_link, settings.add_link},
+       {MutationKind::add_node, settings.add_node},
+       {MutationKind::remove_link, settings.remove_link}}};
+  // Whether a kind is possible depends on the genome alone, so taking an impossible one off the
+  // wheel equals drawing again until another comes, and ends after four draws at most.
+  for (;;) {
+    double total = 0;
+    for (const auto& [kind, rate] : wheel) total += rate;
+    if (!(total > 0)) return MutationKind::none;
+    double left = stream.uniform() * total;
+    std::size_t drawn = 0;
+    for (std::size_t k = 0; k < wheel.size(); ++k) {
+      if (wheel[k].second <= 0) continue;
+      drawn = k;
+      left -= wheel[k].second;
+      if (left < 0) break;
+    }
+    if (attempt(wheel[drawn].first, genome, change, settings, stream)) return wheel[drawn].first;
+    wheel[drawn].second = 0;
+  }
+}
+
+}  // namespace metamorph::evolve

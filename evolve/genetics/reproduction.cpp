@@ -1,0 +1,232 @@
+#include "evolve/genetics/reproduction.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
+#include "core/random.h"
+#include "evolve/genetics/crossover.h"
+
+namespace metamorph::evolve {
+
+using core::Purpose;
+using core::RandomStream;
+
+std::vector<int> apportion(std::span<const double> shares, int seats) {
+  // Relative to the largest share, so that no sum overflows.
+  const double largest = *std::max_element(shares.begin(), shares.end());
+  std::vector<double> quota(shares.size(), 1.0);
+  if (largest > 0) {
+    std::transform(shares.begin(), shares.end(), quota.begin(),
+                   [&](double share) { return share / largest; });
+  }
+  const double total = std::accumulate(quota.begin(), quota.end(), 0.0);
+  std::vector<int> parts(shares.size());
+  for (std::size_t s = 0; s < quota.size(); ++s) {
+    quota[s] *= seats / total;
+    parts[s] = static_cast<int>(quota[s]);
+    quota[s] -= parts[s];
+  }
+  std::vector<std::size_t> order(shares.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return quota[a] > quota[b]; });
+  int left = seats - std::accumulate(parts.begin(), parts.end(), 0);
+  for (std::size_t i = 0; left > 0; i = (i + 1) % order.size(), --left) ++parts[order[i]];
+  return parts;
+}
+
+std::vector<SpeciesPlan> plan_reproduction(const PopulationState& state,
+                                           const NeatSettings& settings,
+                                           std::span<const double> fitness,
+                                           const std::vector<std::vector<int>>& ranked) {
+  const std::size_t count = state.species.size();
+  const auto champion_fitness = [&](std::size_t s) {
+    return fitness[static_cast<std::size_t>(ranked[s].front())];
+  };
+  std::size_t best = 0;
+  for (std::size_t s = 1; s < count; ++s) {
+    if (champion_fitness(s) > champion_fitness(best)) best = s;
+  }
+
+  std::vector<double> shares(count, 0.0);
+  for (std::size_t s = 0; s < count; ++s) {
+    const Species& species = state.species[s];
+    double factor = 1;
+    if (species.age < settings.young_age) factor *= settings.young_bonus;
+    if (species.age > settings.old_age) factor *= settings.old_factor;
+    if (species.stagnant >= settings.stagnation && s != best) factor *= settings.stagnation_factor;
+    const double size = static_cast<double>(ranked[s].size());
+    for (const int member : ranked[s]) {
+      const double own =
+          std::max(fitness[static_cast<std::size_t>(member)], settings.fitness_floor);
+      shares[s] += factor * own / size;
+    }
+  }
+
+  std::vector<int> offspring = apportion(shares, settings.population);
+  if (offspring[best] == 0) {
+    --*std::max_element(offspring.begin(), offspring.end());
+    offspring[best] = 1;
+  }
+
+  std::vector<SpeciesPlan> plans(count);
+  for (std::size_t s = 0; s < count; ++s) {
+    const double size = static_cast<double>(ranked[s].size());
+    const auto survivors = std::min(
+        ranked[s].size(),
+        static_cast<std::size_t>(std::floor(settings.survival_share * size)) + std::size_t{1});
+    plans[s].parents.assign(ranked[s].begin(),
+                            ranked[s].begin() + static_cast<std::ptrdiff_t>(survivors));
+    plans[s].offspring = offspring[s];
+  }
+  return plans;
+}
+
+namespace {
+
+// Where in the new generation a child stands.
+struct Slot {
+  std::size_t species;
+  bool is_copy;
+};
+
+struct Breeder {
+  const PopulationState& state;
+  const NeatSettings& settings;
+  std::span<const double> fitness;
+  const std::vector<SpeciesPlan>& plans;
+  std::vector<std::size_t> breeding;  // species with offspring
+  std::vector<Slot> slots;            // [population]
+
+  // Draws from streams of its own, so that a child depends on its index and attempt alone.
+  Child child(int index, int attempt) const {
+    const Slot& slot = slots[static_cast<std::size_t>(index)];
+    const std::vector<int>& parents = plans[slot.species].parents;
+    Child result;
+    if (slot.is_copy) {
+      result.parent_a = parents.front();
+      result.genome = genome(result.parent_a);
+      return result;
+    }
+    const std::uint32_t key =
+        static_cast<std::uint32_t>(attempt) * static_cast<std::uint32_t>(settings.population) +
+        static_cast<std::uint32_t>(index);
+    const auto stream = [&](Purpose purpose) {
+      return RandomStream(purpose, state.seed, static_cast<std::uint32_t>(state.generation), key);
+    };
+    RandomStream choice = stream(Purpose::parent_choice);
+    const std::uint32_t mother = choice.below(static_cast<std::uint32_t>(parents.size()));
+    result.parent_a = parents[mother];
+    if (choice.chance(settings.crossover)) {
+      if (choice.chance(settings.interspecies_crossover) && breeding.size() > 1) {
+        RandomStream foreign = stream(Purpose::species_choice);
+        result.parent_b = foreign_mate(slot.species, foreign);
+      } else if (parents.size() > 1) {
+        const std::uint32_t other = choice.below(static_cast<std::uint32_t>(parents.size() - 1));
+        result.parent_b = parents[other + (other >= mother ? 1 : 0)];
+      }
+    }
+    if (result.parent_b >= 0) {
+      RandomStream crossing = stream(Purpose::crossover);
+      const bool averaging = !crossing.chance(settings.multipoint);
+      const bool a_leads = fitter(result.parent_a, result.parent_b);
+      result.genome =
+          cross(genome(a_leads ? result.parent_a : result.parent_b),
+                genome(a_leads ? result.parent_b : result.parent_a), averaging, crossing);
+    } else {
+      result.genome = genome(result.parent_a);
+    }
+    RandomStream mutation = stream(Purpose::mutation);
+    if (result.parent_b < 0 || mutation.chance(settings.mutation_after_crossover)) {
+      mutate(result.genome, result.change, settings, mutation);
+    }
+    return result;
+  }
+
+ private:
+  const Genome& genome(int i) const { return state.genomes[static_cast<std::size_t>(i)]; }
+
+  // Equal fitness: the smaller genome leads, then the earlier individual.
+  bool fitter(int a, int b) const {
+    const double of_a = fitness[static_cast<std::size_t>(a)];
+    const double of_b = fitness[static_cast<std::size_t>(b)];
+    if (of_a != of_b) return of_a > of_b;
+    if (genome(a).links.size() != genome(b).links.size()) {
+      return genome(a).links.size() < genome(b).links.size();
+    }
+    return a < b;
+  }
+
+  int foreign_mate(std::size_t own, RandomStream& stream) const {
+    const std::uint32_t others = static_cast<std::uint32_t>(breeding.size() - 1);
+    const std::size_t drawn = stream.below(others);
+    const std::size_t at = static_cast<std::size_t>(
+        std::find(breeding.begin(), breeding.end(), own) - breeding.begin());
+    const std::vector<int>& parents = plans[breeding[drawn + (drawn >= at ? 1 : 0)]].parents;
+    return parents[stream.below(static_cast<std::uint32_t>(parents.size()))];
+  }
+};
+
+std::uint64_t fingerprint(const Child& child) {
+  std::uint64_t hash = 0;
+  const auto mix = [&](std::uint64_t value) {
+    hash = (hash ^ value) * 0x9E3779B97F4A7C15u;
+    hash ^= hash >> 29;
+  };
+  for (const LinkGene& link : child.genome.links) {
+    mix(static_cast<std::uint64_t>(link.innovation));
+    mix(std::bit_cast<std::uint64_t>(link.weight));
+  }
+  mix(static_cast<std::uint64_t>(child.change.kind));
+  mix(static_cast<std::uint64_t>(child.change.from));
+  mix(static_cast<std::uint64_t>(child.change.to));
+  return hash;
+}
+
+}  // namespace
+
+std::vector<Child> breed(const PopulationState& state, const NeatSettings& settings,
+                         std::span<const double> fitness, const std::vector<SpeciesPlan>& plans,
+                         int threads) {
+  Breeder breeder{state, settings, fitness, plans, {}, {}};
+  for (std::size_t s = 0; s < plans.size(); ++s) {
+    if (plans[s].offspring > 0) breeder.breeding.push_back(s);
+    for (int c = 0; c < plans[s].offspring; ++c) breeder.slots.push_back({s, c == 0});
+  }
+  const int count = static_cast<int>(breeder.slots.size());
+  std::vector<Child> children(breeder.slots.size());
+  std::vector<std::uint64_t> prints(children.size());
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (int i = 0; i < count; ++i) {
+    const std::size_t c = static_cast<std::size_t>(i);
+    children[c] = breeder.child(i, 0);
+    prints[c] = fingerprint(children[c]);
+  }
+
+  // Clones are looked for in order of the children: which one is bred again must not depend on
+  // which thread was first. They are compared before numbering: equal changes get equal numbers.
+  std::unordered_multimap<std::uint64_t, std::size_t> earlier;
+  earlier.reserve(children.size());
+  for (int i = 0; i < count; ++i) {
+    const std::size_t c = static_cast<std::size_t>(i);
+    const auto is_clone = [&] {
+      const auto [from, to] = earlier.equal_range(prints[c]);
+      return std::any_of(from, to, [&](const auto& entry) {
+        const Child& other = children[entry.second];
+        return other.genome == children[c].genome && other.change == children[c].change;
+      });
+    };
+    for (int attempt = 1;
+         attempt <= settings.clone_tries && !breeder.slots[c].is_copy && is_clone(); ++attempt) {
+      children[c] = breeder.child(i, attempt);
+      prints[c] = fingerprint(children[c]);
+    }
+    earlier.emplace(prints[c], c);
+  }
+  return children;
+}
+
+}  // namespace metamorph::evolve
