@@ -1,12 +1,12 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "core/body.h"
 #include "core/network.h"
+#include "core/status.h"
 
 namespace metamorph::core {
 
@@ -30,8 +30,9 @@ struct DevelopmentRules {
 /// An embryo between two steps, neighbours renewed. Cells in order of age (id ascending).
 struct Embryo {
   int step = 0;
-  std::vector<int> id;      ///< counts births; founder 0
-  std::vector<int> mother;  ///< id; founder -1
+  Status status = Status::ok;  ///< ok, empty, or non_finite (then without cells)
+  std::vector<int> id;         ///< counts births; founder 0
+  std::vector<int> mother;     ///< id; founder -1
   std::vector<int> birth_step;
   std::vector<double> x, y;                 ///< d, founder started at (0, 0)
   std::vector<double> orientation;          ///< radians, (-pi, pi]

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/body.h"
+
+namespace metamorph::core {
+
+/// Which Delaunay edges link cells (MODEL section 2, Neighbours): all those not longer than
+/// `limit`; then the longer ones in ascending length, ties by cell indices, as far as they join two
+/// components. Lengths are compared as squares in double. Reuse one object to save allocations.
+class LinkSelection {
+ public:
+  /// edges: i < j, ascending. links: the chosen edges, ascending.
+  void select(std::span<const double> x, std::span<const double> y, double limit,
+              std::span<const std::array<Index, 2>> edges,
+              std::vector<std::array<Index, 2>>& links);
+
+ private:
+  struct LongEdge {
+    double square;
+    std::array<Index, 2> edge;
+  };
+  Index root(Index i);
+
+  std::vector<Index> parent_;
+  std::vector<LongEdge> long_edges_;
+};
+
+}  // namespace metamorph::core

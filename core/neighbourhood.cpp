@@ -1,0 +1,57 @@
+#include <algorithm>
+#include <cstddef>
+
+#include "core/neighbourhood_detail.h"
+
+namespace metamorph::core {
+
+void Neighbourhood::renew(std::span<const double> x, std::span<const double> y, double link_limit) {
+  triangulate(x, y, triangulation_);
+  selection_.select(x, y, link_limit, triangulation_.edges, links_);
+  list_neighbours(x.size());
+  fill_slots(static_cast<int>(x.size()));
+}
+
+void Neighbourhood::list_neighbours(std::size_t cells) {
+  start_.assign(cells + 1, 0);
+  for (const auto& [i, j] : links_) {
+    ++start_[static_cast<std::size_t>(i)];
+    ++start_[static_cast<std::size_t>(j)];
+  }
+  int end = 0;
+  for (int& start : start_) {
+    const int degree = start;
+    start = end;
+    end += degree;
+  }
+  // Links ascend, so a cell meets its lower neighbours first, then its higher ones, each in order.
+  // Filling moves every start to its list's end, which is the next list's start.
+  neighbour_.resize(static_cast<std::size_t>(end));
+  for (const auto& [i, j] : links_) {
+    neighbour_[static_cast<std::size_t>(start_[static_cast<std::size_t>(i)]++)] = j;
+    neighbour_[static_cast<std::size_t>(start_[static_cast<std::size_t>(j)]++)] = i;
+  }
+  std::copy_backward(start_.begin(), start_.end() - 1, start_.end());
+  start_[0] = 0;
+}
+
+void Neighbourhood::fill_slots(int cells) {
+  constexpr int lanes = kernels::cell_lanes;
+  const int groups = (cells + lanes - 1) / lanes;
+  first_slot_.assign(1, 0);
+  slot_neighbour_.clear();
+  for (int g = 0; g < groups; ++g) {
+    std::size_t slots = 0;
+    for (int i = g * lanes; i < std::min(cells, (g + 1) * lanes); ++i) {
+      slots = std::max(slots, of(i).size());
+    }
+    first_slot_.push_back(first_slot_.back() + static_cast<int>(slots));
+    for (std::size_t s = 0; s < slots; ++s) {
+      for (int i = g * lanes; i < (g + 1) * lanes; ++i) {
+        slot_neighbour_.push_back(i < cells && s < of(i).size() ? of(i)[s] : i);
+      }
+    }
+  }
+}
+
+}  // namespace metamorph::core

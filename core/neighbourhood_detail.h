@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/delaunay.h"
+#include "core/links.h"
+#include "kernels/cell_mechanics.h"
+
+namespace metamorph::core {
+
+/// Who is linked to whom in one embryo, in the three forms that development needs: links, each
+/// cell's ascending list of neighbours, and the same lists arranged for the mechanics kernel.
+class Neighbourhood {
+ public:
+  /// Renews everything from the centres' positions (finite).
+  void renew(std::span<const double> x, std::span<const double> y, double link_limit);
+
+  const std::vector<std::array<Index, 2>>& links() const { return links_; }
+  const std::vector<std::array<Index, 3>>& faces() const { return triangulation_.faces; }
+
+  /// Linked neighbours of a cell, ascending.
+  std::span<const int> of(Index cell) const {
+    const int* const first = neighbour_.data() + start_[static_cast<std::size_t>(cell)];
+    const int* const last = neighbour_.data() + start_[static_cast<std::size_t>(cell) + 1];
+    return {first, last};
+  }
+
+  kernels::CellRings rings() const {
+    return {static_cast<int>(first_slot_.size()) - 1, first_slot_.data(), slot_neighbour_.data()};
+  }
+
+ private:
+  void list_neighbours(std::size_t cells);
+  void fill_slots(int cells);
+
+  Triangulation triangulation_;
+  LinkSelection selection_;
+  std::vector<std::array<Index, 2>> links_;
+  std::vector<int> start_, neighbour_;            // lists of neighbours, one after the other
+  std::vector<int> first_slot_, slot_neighbour_;  // see kernels::CellRings
+};
+
+}  // namespace metamorph::core
