@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -36,7 +38,9 @@ void expect_line(const Embryo& embryo, int cells) {
     EXPECT_EQ(embryo.x[c], i);
     EXPECT_EQ(embryo.y[c], 0);
     EXPECT_EQ(embryo.orientation[c], 0);
-    if (i > 0) EXPECT_EQ(embryo.links[c - 1], (std::array<Index, 2>{i - 1, i}));
+    if (i > 0) {
+      EXPECT_EQ(embryo.links[c - 1], (std::array<Index, 2>{i - 1, i}));
+    }
   }
 }
 
@@ -99,7 +103,8 @@ TEST(Development, ABodyFillsToTheCapExactly) {
 
 TEST(Development, TimeInhibitsFromItsStepOn) {
   // At step 300 the output is exactly 0: not inhibited. Updates at 0, 30 .. 300 divide.
-  const auto embryos = grow(line().positive_after(Out::inhibit, 0.25f).build(), {600, 1200});
+  const auto embryos =
+      grow(NetworkBuilder().positive_after(Out::inhibit, 0.25f).build(), {600, 1200});
   expect_line(embryos[0], 12);
   expect_line(embryos[1], 12);
 }
@@ -107,7 +112,8 @@ TEST(Development, TimeInhibitsFromItsStepOn) {
 TEST(Development, TimeIsCountedOverTheWholeDevelopmentOfTheRules) {
   DevelopmentRules rules;
   rules.steps = 800;  // half of it lies between the updates at 390 and 420
-  const auto embryos = grow(line().positive_after(Out::inhibit, 0.5f).build(), {400, 800}, rules);
+  const auto embryos =
+      grow(NetworkBuilder().positive_after(Out::inhibit, 0.5f).build(), {400, 800}, rules);
   expect_line(embryos[0], 15);
   expect_line(embryos[1], 15);
 }
