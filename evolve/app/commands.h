@@ -1,0 +1,13 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace metamorph::evolve {
+
+// Every command adds itself to the program: its options, its help and the callback that runs it.
+// Callbacks throw InputError for what a person can mend; main() prints it. A new command costs its
+// own file, a line here and one in main.cpp.
+
+}  // namespace metamorph::evolve
