@@ -1,0 +1,376 @@
+#include "evolve/experiment/experiment_file.h"
+
+#include <fmt/format.h>
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <sstream>
+
+#include "evolve/experiment/contradictions.h"
+#include "evolve/experiment/keys.h"
+#include "evolve/experiment/nearest_name.h"
+#include "evolve/files/input_error.h"
+
+namespace metamorph::evolve {
+namespace {
+
+bool is_name(std::string_view text) {
+  return !text.empty() && text.front() != '.' && text.size() <= 100 &&
+         std::all_of(text.begin(), text.end(), [](unsigned char c) {
+           return std::isalnum(c) || c == '-' || c == '_' || c == '.';
+         });
+}
+
+/// Stores a value in the key's field; false if type or range are wrong.
+bool assign(const Key& key, const toml::node& node) {
+  struct Visitor {
+    const Key& key;
+    const toml::node& node;
+    bool in_range(double value) const { return value >= key.low && value <= key.high; }
+    bool operator()(int* field) const {
+      const auto value = node.value_exact<std::int64_t>();
+      if (!value || !in_range(static_cast<double>(*value))) return false;
+      *field = static_cast<int>(*value);
+      return true;
+    }
+    bool operator()(std::uint64_t* field) const {
+      const auto value = node.value_exact<std::int64_t>();
+      if (!value || !in_range(static_cast<double>(*value))) return false;
+      *field = static_cast<std::uint64_t>(*value);
+      return true;
+    }
+    bool operator()(double* field) const {
+      if (!node.is_number()) return false;
+      const double value = *node.value<double>();
+      if (!std::isfinite(value) || !in_range(value)) return false;
+      *field = value;
+      return true;
+    }
+    bool operator()(bool* field) const {
+      if (!node.is_boolean()) return false;
+      *field = *node.value<bool>();
+      return true;
+    }
+    bool operator()(std::string* field) const {
+      const auto value = node.value_exact<std::string>();
+      if (!value || !is_name(*value)) return false;
+      *field = *value;
+      return true;
+    }
+    bool operator()(const Choice& choice) const {
+      const auto value = node.value_exact<std::string>();
+      if (!value) return false;
+      const auto found = std::find(choice.names.begin(), choice.names.end(), *value);
+      if (found == choice.names.end()) return false;
+      choice.set(static_cast<std::size_t>(found - choice.names.begin()));
+      return true;
+    }
+  };
+  return std::visit(Visitor{key, node}, key.field);
+}
+
+std::string shown(const toml::node& node) {
+  std::ostringstream text;
+  if (const auto* string = node.as_string()) {
+    text << '"' << string->get() << '"';
+  } else if (node.is_table()) {
+    text << "a table";
+  } else if (node.is_array()) {
+    text << "a list";
+  } else {
+    node.visit([&](const auto& value) {
+      if constexpr (toml::is_value<decltype(value)>) text << value;
+    });
+  }
+  std::string line = text.str().substr(0, 60);
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  return line;
+}
+
+std::string join_path(std::string_view section, std::string_view key) {
+  return section.empty() ? std::string(key) : fmt::format("{}.{}", section, key);
+}
+
+/// Builds an experiment from a file and overrides, and collects what is wrong with them.
+class Reader {
+ public:
+  Reader(std::string source, const std::vector<Override>& overrides)
+      : source_(std::move(source)), overrides_(overrides) {}
+
+  Experiment read(std::string_view text) {
+    toml::table file;
+    try {
+      file = toml::parse(text, source_);
+    } catch (const toml::parse_error& error) {
+      throw InputError(fmt::format("{}:{}: not valid TOML: {}", source_, error.source().begin.line,
+                                   error.description()));
+    }
+    if (!file.contains("name")) {
+      faults_.push_back(fmt::format("{}: name is missing: expected {}", source_,
+                                    expectation(fixed_sections(experiment_)[0].keys[0])));
+    }
+    read_fixed_sections(file);
+    read_trials(file);
+    apply_overrides(false);
+    read_scenes(file);
+    apply_overrides(true);
+    for (const Contradiction& c : contradictions(experiment_)) {
+      faults_.push_back(fmt::format("{}: expected {}", placed(c.key), c.expected));
+    }
+    if (!faults_.empty()) throw InputError(faults_);
+    return std::move(experiment_);
+  }
+
+ private:
+  std::string at(const toml::node& node) const {
+    return fmt::format("{}:{}", source_, node.source().begin.line);
+  }
+
+  /// "file:line: key = value" of a key that was given, "file: key" with its default otherwise.
+  std::string placed(const std::string& key) {
+    const auto given = origin_.find(key);
+    std::string value;
+    for (const Section& section : all_sections(experiment_)) {
+      for (const Key& k : section.keys) {
+        if (join_path(section.path, k.name) == key) value = " = " + value_text(k);
+      }
+    }
+    return fmt::format("{}: {}{}", given == origin_.end() ? source_ : given->second, key, value);
+  }
+
+  void unknown(const std::string& where, const std::string& path, const std::string& value) {
+    std::vector<std::string> paths = {"trials", "scenes"};
+    for (const Section& section : all_sections(experiment_)) {
+      if (!section.path.empty()) paths.push_back(section.path);
+      for (const Key& key : section.keys) paths.push_back(join_path(section.path, key.name));
+    }
+    std::string nearest = nearest_name(path, paths);
+    // The right key in the wrong table.
+    const auto last = [](const std::string& p) { return p.substr(p.rfind('.') + 1); };
+    for (const std::string& candidate : paths) {
+      if (nearest.empty() && last(candidate) == last(path)) nearest = candidate;
+    }
+    faults_.push_back(fmt::format("{}: {} = {}: unknown key{}", where, path, value,
+                                  nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+  }
+
+  void set(const Section& section, std::string_view name, const toml::node& node,
+           const std::string& where) {
+    const std::string path = join_path(section.path, name);
+    const auto key = std::find_if(section.keys.begin(), section.keys.end(),
+                                  [&](const Key& k) { return k.name == name; });
+    if (key == section.keys.end()) {
+      unknown(where, path, shown(node));
+    } else if (!assign(*key, node)) {
+      faults_.push_back(
+          fmt::format("{}: {} = {}: expected {}", where, path, shown(node), expectation(*key)));
+    } else {
+      origin_[path] = where;
+    }
+  }
+
+  void set_all(const Section& section, const toml::table& table) {
+    for (const auto& [name, node] : table) set(section, name.str(), node, at(node));
+  }
+
+  void read_fixed_sections(const toml::table& file) {
+    const std::vector<Section> sections = fixed_sections(experiment_);
+    for (const auto& [name, node] : file) {
+      if (name == "trials" || name == "scenes") continue;
+      const auto section = std::find_if(sections.begin(), sections.end(),
+                                        [&](const Section& s) { return s.path == name.str(); });
+      if (section == sections.end()) {
+        set(sections[0], name.str(), node, at(node));
+      } else if (const toml::table* table = node.as_table()) {
+        set_all(*section, *table);
+      } else {
+        faults_.push_back(fmt::format("{}: {} = {}: expected a table [{}]", at(node), name.str(),
+                                      shown(node), name.str()));
+      }
+    }
+  }
+
+  void read_trials(const toml::table& file) {
+    const toml::node* node = file.get("trials");
+    if (node == nullptr) return;
+    const toml::array* list = node->as_array();
+    if (list == nullptr || !std::all_of(list->begin(), list->end(),
+                                        [](const toml::node& entry) { return entry.is_table(); })) {
+      faults_.push_back(fmt::format("{}: trials = {}: expected a list of tables [[trials]]",
+                                    at(*node), shown(*node)));
+      return;
+    }
+    experiment_.trials.reserve(list->size());
+    for (const toml::node& entry : *list) {
+      const toml::table& table = *entry.as_table();
+      Trial& trial = experiment_.trials.emplace_back();
+      trial.name = table["name"].value_or(fmt::format("{}", experiment_.trials.size()));
+      for (const char* needed : {"name", "stage", "scene"}) {
+        if (!table.contains(needed)) {
+          faults_.push_back(
+              fmt::format("{}: trials.{}: {} is missing", at(entry), trial.name, needed));
+        }
+      }
+      set_all(trial_section(trial), table);
+    }
+  }
+
+  /// Scenes of the file, and the presets that trials name without changing them.
+  void read_scenes(const toml::table& file) {
+    const toml::node* node = file.get("scenes");
+    const toml::table* tables = node == nullptr ? nullptr : node->as_table();
+    if (node != nullptr && tables == nullptr) {
+      faults_.push_back(
+          fmt::format("{}: scenes = {}: expected tables [scenes.NAME]", at(*node), shown(*node)));
+    }
+    if (tables != nullptr) {
+      for (const auto& [name, entry] : *tables) read_scene(std::string(name.str()), entry);
+    }
+    for (const Trial& trial : experiment_.trials) {
+      const auto& scenes = experiment_.scenes;
+      if (trial.scene.empty() ||
+          std::any_of(scenes.begin(), scenes.end(),
+                      [&](const NamedScene& s) { return s.scene.name == trial.scene; })) {
+        continue;
+      }
+      if (std::find(std::begin(scene_bases), std::end(scene_bases), trial.scene) ==
+          std::end(scene_bases)) {
+        faults_.push_back(fmt::format(
+            "{}: expected water, land, land-right, slope or the name of a [scenes.NAME] table",
+            placed("trials." + trial.name + ".scene")));
+        continue;
+      }
+      experiment_.scenes.push_back({trial.scene, base_scene(trial.scene)});
+    }
+    std::sort(experiment_.scenes.begin(), experiment_.scenes.end(),
+              [](const NamedScene& a, const NamedScene& b) { return a.scene.name < b.scene.name; });
+  }
+
+  void read_scene(const std::string& name, const toml::node& entry) {
+    const toml::table* table = entry.as_table();
+    if (table == nullptr || !is_name(name)) {
+      faults_.push_back(
+          fmt::format("{}: scenes.{} = {}: expected a table with a name of letters, "
+                      "digits, '-' and '_'",
+                      at(entry), name, shown(entry)));
+      return;
+    }
+    const bool preset =
+        std::find(std::begin(scene_bases), std::end(scene_bases), name) != std::end(scene_bases);
+    NamedScene named{preset ? name : "water", {}};
+    named.scene.name = name;
+    if (const toml::node* base = table->get("base")) {
+      set(scene_section(named), "base", *base, at(*base));
+    } else if (!preset) {
+      faults_.push_back(fmt::format("{}: scenes.{}: base is missing: expected {}", at(entry), name,
+                                    expectation(scene_section(named).keys[0])));
+    }
+    named.scene = base_scene(named.base);
+    named.scene.name = name;
+    origin_["scenes." + name] = at(entry);
+    for (const auto& [key, node] : *table) {
+      if (key != "base") set(scene_section(named), key.str(), node, at(node));
+    }
+    experiment_.scenes.push_back(std::move(named));
+  }
+
+  /// Scenes are known only after the trials that name them: two rounds.
+  void apply_overrides(bool to_scenes) {
+    for (const Override& change : overrides_) {
+      if (change.key.starts_with("scenes.") != to_scenes) continue;
+      toml::table holder;
+      try {
+        holder = toml::parse("value = " + change.value);
+      } catch (const toml::parse_error&) {
+        holder.insert("value", change.value);
+      }
+      const toml::node& node = *holder.get("value");
+      const std::size_t dot = change.key.rfind('.');
+      const std::string prefix = dot == std::string::npos ? "" : change.key.substr(0, dot);
+      const std::string name = dot == std::string::npos ? change.key : change.key.substr(dot + 1);
+      bool found = false;
+      for (const Section& section : all_sections(experiment_)) {
+        const bool every = (prefix == "scenes.*" && section.path.starts_with("scenes.")) ||
+                           (prefix == "trials.*" && section.path.starts_with("trials."));
+        if (section.path != prefix && !every) continue;
+        const std::size_t before = faults_.size();
+        set(section, name, node, change.origin);
+        found = true;
+        if (faults_.size() != before) break;  // one fault per override, not one per scene
+      }
+      if (!found) unknown(change.origin, change.key, shown(node));
+    }
+  }
+
+  std::string source_;
+  const std::vector<Override>& overrides_;
+  Experiment experiment_;
+  std::map<std::string, std::string> origin_;  ///< where each given key was given
+  std::vector<std::string> faults_;
+};
+
+}  // namespace
+
+Override parse_override(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string_view::npos || equals + 1 == text.size()) {
+    throw InputError(fmt::format("--set {}: expected key=value, as in neat.population=100", text));
+  }
+  return {"--set", std::string(text.substr(0, equals)), std::string(text.substr(equals + 1))};
+}
+
+Experiment parse_experiment(std::string_view text, const std::string& source,
+                            const std::vector<Override>& overrides) {
+  return Reader(source, overrides).read(text);
+}
+
+Experiment read_experiment(const std::filesystem::path& file,
+                           const std::vector<Override>& overrides) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (!stream || std::filesystem::is_directory(file) || !(text << stream.rdbuf())) {
+    throw InputError(
+        fmt::format("{}: cannot be read: expected an experiment file (TOML)", file.string()));
+  }
+  return parse_experiment(text.str(), file.string(), overrides);
+}
+
+std::string to_toml(const Experiment& experiment) {
+  Experiment copy = experiment;  // sections point to fields that may be written
+  std::string text;
+  for (const Section& section : all_sections(copy)) {
+    if (section.path.starts_with("trials.")) {
+      text += "\n[[trials]]\n";
+    } else if (!section.path.empty()) {
+      text += fmt::format("\n[{}]\n", section.path);
+    }
+    for (const Key& key : section.keys) {
+      text += fmt::format("{} = {}\n", key.name, value_text(key));
+    }
+  }
+  return text;
+}
+
+std::string describe_keys() {
+  Experiment defaults;
+  defaults.name = "NAME";
+  defaults.trials = {{"NAME", 600, "water"}};
+  defaults.scenes = {{"water", core::water_scene()}};
+  defaults.scenes[0].scene.name = "NAME";
+  std::string text;
+  for (const Section& section : all_sections(defaults)) {
+    text += section.path.empty() ? fmt::format("{}\n", section.help)
+                                 : fmt::format("\n{}: {}\n", section.path, section.help);
+    for (const Key& key : section.keys) {
+      text += fmt::format("  {} = {}  ({}; {})\n", join_path(section.path, key.name),
+                          value_text(key), key.help, expectation(key));
+    }
+  }
+  return text;
+}
+
+}  // namespace metamorph::evolve

@@ -1,0 +1,238 @@
+#include "evolve/experiment/keys.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <iterator>
+
+namespace metamorph::evolve {
+namespace {
+
+constexpr double no_limit = 1e9;  ///< upper end of ranges that have no natural one
+
+template <class Enum>
+Choice choice(Enum& field, std::vector<std::string_view> names) {
+  return {std::move(names), [&field] { return static_cast<std::size_t>(field); },
+          [&field](std::size_t i) { field = static_cast<Enum>(i); }};
+}
+
+Choice base_choice(NamedScene& named) {
+  return {{std::begin(scene_bases), std::end(scene_bases)},
+          [&named] {
+            return static_cast<std::size_t>(
+                std::find(std::begin(scene_bases), std::end(scene_bases), named.base) -
+                std::begin(scene_bases));
+          },
+          [&named](std::size_t i) { named.base = scene_bases[i]; }};
+}
+
+Section top_section(Experiment& e) {
+  return {"",
+          "the run",
+          {{"name", &e.name, 0, 0, "name of the experiment; part of the run's directory"},
+           {"generations", &e.generations, 1, 1e7, "generations to evolve"},
+           {"seed", &e.seed, 0, 0x1p53, "seed of every random number of the run"}}};
+}
+
+Section development_section(Experiment& e) {
+  core::DevelopmentRules& d = e.development;
+  return {
+      "development",
+      "from one cell to an embryo; times in steps, lengths in cell diameters d",
+      {{"steps", &d.steps, 1, 1e6, "whole development; the time input runs from 0 to 1 over it"},
+       {"max_cells", &d.max_cells, 1, 4096, "hard cap on living cells"},
+       {"created_limit", &e.created_limit, 1, no_limit, "cells ever created before it costs"},
+       {"created_penalty", &e.created_penalty, 0, 1, "factor on the fitness above that limit"},
+       {"renew_interval", &d.renew_interval, 1, 1e6, "steps between renewals of neighbours"},
+       {"update_interval", &d.update_interval, 1, 1e6, "steps between network updates"},
+       {"step", &d.step, 1e-6, 10, "time units per step"},
+       {"stiffness", &d.stiffness, 0, 1e6, "spring constant between cells"},
+       {"damping", &d.damping, 0, 1e6, "damping along the springs"},
+       {"drag", &d.drag, 0, 1e6, "drag per cell"},
+       {"link_limit", &d.link_limit, 0, 1e6, "d; longer links stay only where needed"},
+       {"division_space", &d.division_space, 0, 1e6, "d; free space a daughter needs"},
+       {"coordinate_scale", &d.coordinate_scale, 1e-6, 1e6, "d; divides the x and y inputs"},
+       {"period_min", &d.period_min, 1e-3, 1e6, "shortest oscillation, time units"},
+       {"period_max", &d.period_max, 1e-3, 1e6, "longest oscillation, time units"}}};
+}
+
+Section body_section(Experiment& e) {
+  return {"body",
+          "from embryo to soft body",
+          {{"min_cells", &e.min_cells, 3, 4096, "fewer nodes are no body: fitness 0"}}};
+}
+
+Section locomotion_section(Experiment& e) {
+  LocomotionSettings& l = e.locomotion;
+  return {"locomotion",
+          "how motion is computed; the step belongs to the scene",
+          {{"precision", choice(l.precision, {"float32", "float64"}), 0, 0, "of the arithmetic"},
+           {"method", choice(l.method, {"drift_kick_drift", "symplectic_euler"}), 0, 0,
+            "time integrator"}}};
+}
+
+Section search_section(Experiment& e) {
+  SearchSettings& s = e.search;
+  return {
+      "search",
+      "what is selected for",
+      {{"kind", choice(s.kind, {"simple", "progressive", "novelty"}), 0, 0, "the search"},
+       {"neighbours", &s.neighbours, 1, 1e6, "k of novelty search"},
+       {"archive_threshold", &s.archive_threshold, 0, no_limit, "novelty to enter, at first, d"},
+       {"archive_floor", &s.archive_floor, 0, no_limit, "lowest threshold, d"},
+       {"archive_many", &s.archive_many, 0, no_limit, "more in a row raise the threshold"},
+       {"archive_idle", &s.archive_idle, 1, no_limit, "generations without one that lower it"},
+       {"archive_raise", &s.archive_raise, 1, 1e3, "factor that raises it"},
+       {"archive_lower", &s.archive_lower, 0, 1, "factor that lowers it"}}};
+}
+
+Section neat_section(Experiment& e) {
+  NeatSettings& n = e.neat;
+  return {"neat",
+          "how genomes are bred",
+          {{"population", &n.population, 1, 1e6, "individuals per generation"},
+           {"hidden_nodes", &n.hidden_nodes, 0, 1e4, "hidden nodes of the first genomes"},
+           {"initial_weight", &n.initial_weight, 0, 1e6, "first weights are triangular up to this"},
+           {"species_min", &n.species_min, 1, 1e6, "fewer species: the threshold falls"},
+           {"species_max", &n.species_max, 1, 1e6, "more species: the threshold rises"},
+           {"compatibility_threshold", &n.compatibility_threshold, 0, 1e6, "of species, at first"},
+           {"compatibility_step", &n.compatibility_step, 0, 1e6, "its change per generation"},
+           {"compatibility_floor", &n.compatibility_floor, 0, 1e6, "its lowest value"},
+           {"weight_difference_factor", &n.weight_difference_factor, 0, 1e6,
+            "weight of the mean weight difference in the distance"},
+           {"young_age", &n.young_age, 0, no_limit, "species below this age get the bonus"},
+           {"young_bonus", &n.young_bonus, 0, 1e6, "factor on the fitness of young species"},
+           {"old_age", &n.old_age, 0, no_limit, "species above this age get the old factor"},
+           {"old_factor", &n.old_factor, 0, 1e6, "factor on the fitness of old species"},
+           {"stagnation", &n.stagnation, 1, no_limit, "generations without a new best"},
+           {"stagnation_factor", &n.stagnation_factor, 0, 1, "factor on the fitness after those"},
+           {"survival_share", &n.survival_share, 0, 1, "share of a species that may be parents"},
+           {"crossover", &n.crossover, 0, 1, "probability of two parents"},
+           {"mutation_after_crossover", &n.mutation_after_crossover, 0, 1, "probability"},
+           {"interspecies_crossover", &n.interspecies_crossover, 0, 1, "probability"},
+           {"multipoint", &n.multipoint, 0, 1, "probability of multipoint, else averaging"},
+           {"mutate_weights", &n.mutate_weights, 0, 1e6, "rate in the mutation roulette"},
+           {"add_link", &n.add_link, 0, 1e6, "rate in the mutation roulette"},
+           {"add_node", &n.add_node, 0, 1e6, "rate in the mutation roulette"},
+           {"remove_link", &n.remove_link, 0, 1e6, "rate in the mutation roulette"},
+           {"severe", &n.severe, 0, 1, "share of weight mutations that redraw all weights"},
+           {"weight_change", &n.weight_change, 0, 1e6, "largest change of a weight"},
+           {"weight_limit", &n.weight_limit, 1e-6, 1e6, "largest absolute weight"},
+           {"fitness_floor", &n.fitness_floor, 0, 1e6, "least fitness before sharing"},
+       {"clone_tries", &n.clone_tries, 0, 1e6, "times an identical child is bred again"}}};
+}
+
+template <class Number>
+std::string range_text(Number low, Number high) {
+  if (static_cast<double>(high) >= no_limit) return fmt::format("at least {}", low);
+  return fmt::format("from {} to {}", low, high);
+}
+
+}  // namespace
+
+std::vector<Section> fixed_sections(Experiment& e) {
+  return {top_section(e),        development_section(e), body_section(e),
+          locomotion_section(e), search_section(e),      neat_section(e)};
+}
+
+Section trial_section(Trial& t) {
+  return {"trials." + t.name,
+          "a body of one stage, in one scene",
+          {{"name", &t.name, 0, 0, "name of the trial"},
+           {"stage", &t.stage, 1, 1e6, "development step at which the body is taken"},
+           {"scene", &t.scene, 0, 0, "water, land, land-right, slope or one of [scenes]"}}};
+}
+
+Section scene_section(NamedScene& named) {
+  core::Scene& s = named.scene;
+  return {"scenes." + s.name,
+          "an environment; units d, cell mass, spring constant 1; steps are 0.2 time units",
+          {{"base", base_choice(named), 0, 0, "where the defaults come from"},
+           {"stiffness", &s.stiffness, 0, 1e6, "k of eq 2"},
+           {"damping", &s.damping, 0, 1e6, "c of eq 2"},
+           {"pressure", &s.pressure, 0, 1e6, "c_p of eq 1; 0: none"},
+           {"amplitude", &s.amplitude, 0, 0.49, "A of eq 3"},
+           {"min_pressure_area", &s.min_pressure_area, 0, 1e6, "smaller triangles have none, d^2"},
+           {"drag", &s.drag, 0, 0, "water: eq 4 and 5"},
+           {"drag_normal", &s.drag_normal, 0, 1e6, "d_N"},
+           {"drag_tangential", &s.drag_tangential, 0, 1e6, "d_T"},
+           {"ground", &s.ground, 0, 0, "land: gravity, contact and friction"},
+           {"gravity", &s.gravity, 0, 1e3, "g"},
+           {"slope_degrees", &s.slope_degrees, -89, 89, "gravity is turned by it; +x is uphill"},
+           {"ground_stiffness", &s.ground_stiffness, 0, 1e6, "k_n"},
+           {"ground_damping", &s.ground_damping, 0, 1e6, "c_n"},
+           {"friction", &s.friction, 0, 1e3, "mu"},
+           {"self_collision", &s.self_collision, 0, 0, "the outline repels itself"},
+           {"collision_stiffness", &s.collision_stiffness, 0, 1e6, "k_s"},
+           {"collision_gap", &s.collision_gap, 0, 1e3, "d"},
+           {"step", &s.step, 1e-6, 10, "time units per integrator step"},
+           {"run_steps", &s.run_steps, 1, no_limit, "actuation, ramp included, steps"},
+           {"ramp_steps", &s.ramp_steps, 0, no_limit, "steps over which actuation starts"},
+           {"distance", choice(s.distance, {"euclidean", "horizontal", "rightward"}), 0, 0,
+            "what counts as distance"},
+           {"settle_damping", &s.settle_damping, 0, 1e6, "c while settling"},
+           {"settle_drag", &s.settle_drag, 0, 1e6, "drag per node while settling"},
+           {"settle_speed", &s.settle_speed, 0, 1e6, "quiet below this, d per time unit"},
+           {"settle_quiet_steps", &s.settle_quiet_steps, 0, no_limit, "steps that must be quiet"},
+           {"settle_max_steps", &s.settle_max_steps, 0, no_limit, "then start anyway"}}};
+}
+
+std::vector<Section> all_sections(Experiment& experiment) {
+  std::vector<Section> sections = fixed_sections(experiment);
+  for (Trial& trial : experiment.trials) sections.push_back(trial_section(trial));
+  for (NamedScene& scene : experiment.scenes) sections.push_back(scene_section(scene));
+  return sections;
+}
+
+core::Scene base_scene(std::string_view base) {
+  if (base == "land") return core::land_scene();
+  if (base == "land-right") return core::land_right_scene();
+  if (base == "slope") return core::slope_scene();
+  assert(base == "water");
+  return core::water_scene();
+}
+
+std::string expectation(const Key& key) {
+  struct Visitor {
+    const Key& key;
+    std::string operator()(const int*) const {
+      return "a whole number " +
+             range_text(static_cast<long long>(key.low), static_cast<long long>(key.high));
+    }
+    std::string operator()(const std::uint64_t*) const {
+      return fmt::format("a whole number from 0 to {}", static_cast<std::uint64_t>(key.high));
+    }
+    std::string operator()(const double*) const {
+      return "a number " + range_text(key.low, key.high);
+    }
+    std::string operator()(const bool*) const { return "true or false"; }
+    std::string operator()(const std::string*) const {
+      return "a name of letters, digits, '-', '_' and '.', in quotes";
+    }
+    std::string operator()(const Choice& c) const {
+      std::string text = "one of";
+      for (const std::string_view name : c.names) {
+        text += fmt::format("{}\"{}\"", &name == &c.names.front() ? " " : ", ", name);
+      }
+      return text;
+    }
+  };
+  return std::visit(Visitor{key}, key.field);
+}
+
+std::string value_text(const Key& key) {
+  struct Visitor {
+    std::string operator()(const int* value) const { return std::to_string(*value); }
+    std::string operator()(const std::uint64_t* value) const { return std::to_string(*value); }
+    std::string operator()(const double* value) const { return fmt::format("{}", *value); }
+    std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
+    std::string operator()(const std::string* value) const { return '"' + *value + '"'; }
+    std::string operator()(const Choice& c) const {
+      return fmt::format("\"{}\"", c.names[c.get()]);
+    }
+  };
+  return std::visit(Visitor{}, key.field);
+}
+
+}  // namespace metamorph::evolve
