@@ -1,0 +1,46 @@
+#pragma once
+
+// Random states and small measurements for the tests of physics.
+
+#include <cmath>
+#include <vector>
+
+#include "core/body.h"
+#include "core/random.h"
+#include "core/reference_system_detail.h"
+#include "core/scene.h"
+
+namespace metamorph::tests {
+
+/// Only what every body has: springs and pressure, undamped, at rest length; no surroundings.
+inline core::Scene vacuum_scene() {
+  core::Scene scene;
+  scene.name = "vacuum";
+  scene.damping = 0;
+  scene.amplitude = 0;
+  scene.drag = false;
+  scene.self_collision = false;
+  return scene;
+}
+
+/// Moves every node by up to `shift` and sets velocities of up to `speed`, per coordinate.
+inline void disturb(core::ReferenceSystem& system, double shift, double speed, std::uint64_t seed) {
+  core::RandomStream random(core::Purpose::test, seed, 0, 0);
+  for (std::size_t i = 0; i < system.x.size(); ++i) {
+    system.x[i] += shift * (2 * random.uniform() - 1);
+    system.y[i] += shift * (2 * random.uniform() - 1);
+    system.vx[i] += speed * (2 * random.uniform() - 1);
+    system.vy[i] += speed * (2 * random.uniform() - 1);
+  }
+}
+
+/// Root of the mean squared distance of two sets of points.
+inline double rms_distance(const std::vector<double>& x1, const std::vector<double>& y1,
+                           const std::vector<double>& x2, const std::vector<double>& y2) {
+  double sum = 0;
+  for (std::size_t i = 0; i < x1.size(); ++i)
+    sum += (x1[i] - x2[i]) * (x1[i] - x2[i]) + (y1[i] - y2[i]) * (y1[i] - y2[i]);
+  return std::sqrt(sum / static_cast<double>(x1.size()));
+}
+
+}  // namespace metamorph::tests
