@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "core/delaunay.h"
+#include "core/development.h"
+#include "core/links.h"
+#include "tests/core/network_builder.h"
+
+namespace metamorph::core {
+namespace {
+
+using testing::random_network;
+
+bool same(const Embryo& a, const Embryo& b) {
+  return a.step == b.step && a.status == b.status && a.id == b.id && a.mother == b.mother &&
+         a.birth_step == b.birth_step && a.x == b.x && a.y == b.y &&
+         a.orientation == b.orientation && a.period == b.period && a.phase == b.phase &&
+         a.links == b.links && a.faces == b.faces && a.created == b.created && a.died == b.died;
+}
+
+bool same(const std::vector<Embryo>& a, const std::vector<Embryo>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Embryo& p, const Embryo& q) { return same(p, q); });
+}
+
+std::vector<Network> population(std::uint64_t seed, std::uint32_t count) {
+  std::vector<Network> networks;
+  for (std::uint32_t i = 0; i < count; ++i) networks.push_back(random_network(seed, i));
+  return networks;
+}
+
+std::vector<std::vector<Embryo>> grow(const std::vector<Network>& networks,
+                                      const std::vector<int>& stages, int threads = 1,
+                                      const DevelopmentRules& rules = {}) {
+  return develop(networks, rules, stages, threads);
+}
+
+RC_GTEST_PROP(RandomDevelopment, KeepsItsBooksAndItsGeometry, ()) {
+  DevelopmentRules rules;
+  rules.max_cells = *rc::gen::inRange(1, 257);
+  const int stage = *rc::gen::inRange(0, 1201);
+  const auto networks = population(*rc::gen::inRange<std::uint64_t>(0, 1000000), 4);
+  for (const auto& stages : grow(networks, {stage}, 1, rules)) {
+    const Embryo& e = stages.front();
+    const Index n = e.cell_count();
+    RC_ASSERT(n <= rules.max_cells);
+    RC_ASSERT(e.status == (n == 0 ? Status::empty : Status::ok));
+    RC_ASSERT(e.created - e.died == n);
+    for (Index i = 0; i < n; ++i) {
+      const auto c = static_cast<std::size_t>(i);
+      RC_ASSERT((i == 0 || e.id[c - 1] < e.id[c]));
+      RC_ASSERT(e.id[c] < e.created);
+      RC_ASSERT(e.mother[c] < e.id[c]);
+      RC_ASSERT((e.mother[c] == -1) == (e.id[c] == 0));
+      RC_ASSERT(e.birth_step[c] % 30 == 0);
+      RC_ASSERT((e.birth_step[c] < stage || e.id[c] == 0));
+      RC_ASSERT((e.period[c] >= 30 && e.period[c] <= 120));
+      RC_ASSERT(std::fabs(e.phase[c]) <= std::acos(-1.0));
+      RC_ASSERT(std::fabs(e.orientation[c]) <= std::acos(-1.0));
+    }
+    Triangulation t;
+    triangulate(e.x, e.y, t);
+    RC_ASSERT(e.faces == t.faces);
+    std::vector<std::array<Index, 2>> links;
+    LinkSelection().select(e.x, e.y, rules.link_limit, t.edges, links);
+    RC_ASSERT(e.links == links);
+  }
+}
+
+TEST(RandomDevelopment, TakingAnEmbryoOutLeavesNoTrace) {
+  const auto networks = population(11, 60);
+  const auto once = grow(networks, {1200});
+  const auto twice = grow(networks, {600, 1200});
+  const auto often = grow(networks, {0, 1, 15, 30, 299, 595, 600, 601, 1199, 1200});
+  bool grown = false;
+  for (std::size_t i = 0; i < networks.size(); ++i) {
+    EXPECT_TRUE(same(twice[i][1], once[i][0])) << i;
+    EXPECT_TRUE(same(often[i][9], once[i][0])) << i;
+    EXPECT_TRUE(same(often[i][6], twice[i][0])) << i;
+    grown = grown || once[i][0].cell_count() > 50;
+  }
+  EXPECT_TRUE(grown);
+}
+
+TEST(RandomDevelopment, BatchOrderAndThreadsDoNotChangeABit) {
+  auto networks = population(12, 40);
+  const std::vector<int> stages = {600, 1200};
+  const auto batch = grow(networks, stages, 1);
+  const auto threaded = grow(networks, stages, 2);
+  std::reverse(networks.begin(), networks.end());
+  const auto reversed = grow(networks, stages, 3);
+  for (std::size_t i = 0; i < networks.size(); ++i) {
+    EXPECT_TRUE(same(batch[i], threaded[i]));
+    EXPECT_TRUE(same(batch[i], reversed[networks.size() - 1 - i]));
+    EXPECT_TRUE(same(batch[i], grow({networks[networks.size() - 1 - i]}, stages).front()));
+  }
+}
+
+}  // namespace
+}  // namespace metamorph::core
