@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/body.h"
 #include "core/status.h"
 
 namespace metamorph::core {
@@ -29,5 +30,8 @@ struct Outcome {
   int failed_index = -1;          ///< node or triangle, by status
   double failed_value = 0;        ///< the offending speed, area ratio, ...
 };
+
+/// An outcome with what the body alone decides: counts and spring lengths.
+Outcome describe(const Body& body);
 
 }  // namespace metamorph::core

@@ -30,32 +30,6 @@ Status status_of(ref::Fault fault) {
   return Status::non_finite;
 }
 
-double distance_by(DistanceRule rule, double dx, double dy) {
-  switch (rule) {
-    case DistanceRule::euclidean:
-      return std::sqrt(dx * dx + dy * dy);
-    case DistanceRule::horizontal:
-      return std::fabs(dx);
-    case DistanceRule::rightward:
-      return std::max(dx, 0.0);
-  }
-  return 0;
-}
-
-Outcome describe(const Body& body) {
-  Outcome outcome;
-  outcome.cells = body.node_count();
-  outcome.springs = static_cast<int>(body.springs.size());
-  outcome.triangles = static_cast<int>(body.triangles.size());
-  int above = 0;
-  for (const double length : body.rest_length) {
-    outcome.longest_spring = std::max(outcome.longest_spring, length);
-    if (length > 1.5) ++above;
-  }
-  if (outcome.springs > 0) outcome.long_spring_share = static_cast<double>(above) / outcome.springs;
-  return outcome;
-}
-
 /// The steps of one evaluation: counts them, looks at the state, and remembers a failure.
 class Evaluation {
  public:
@@ -80,7 +54,7 @@ class Evaluation {
     const std::array<double, 2> end = system_.mean_position();
     const double dx = end[0] - start[0];
     const double dy = end[1] - start[1];
-    outcome_.distance = distance_by(scene_.distance, dx, dy);
+    outcome_.distance = travelled(scene_.distance, dx, dy);
     outcome_.mean_position = {dx, scene_.ground ? end[1] : dy};
     return outcome_;
   }

@@ -1,6 +1,21 @@
 #include "core/scene.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace metamorph::core {
+
+double travelled(DistanceRule rule, double dx, double dy) {
+  switch (rule) {
+    case DistanceRule::euclidean:
+      return std::sqrt(dx * dx + dy * dy);
+    case DistanceRule::horizontal:
+      return std::abs(dx);
+    case DistanceRule::rightward:
+      return std::max(dx, 0.0);
+  }
+  return 0;
+}
 
 Scene water_scene() { return {}; }
 

@@ -57,6 +57,9 @@ struct Scene {
   int settle_max_steps = 6000;   ///< paper steps; then start anyway
 };
 
+/// Distance by a rule of a displacement (dx, dy), d.
+double travelled(DistanceRule rule, double dx, double dy);
+
 inline constexpr double paper_step = 0.2;  ///< time units
 
 /// The four environments of MODEL section 7.

@@ -1,0 +1,284 @@
+#include "core/body_batch_detail.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "core/rings_detail.h"
+
+namespace metamorph::core {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// A number of turns in fixed point, modulo whole turns; exact in double, to 2^-33 turn in float.
+template <class T>
+kernels::Turn<T> fixed_turn(double turns) {
+  const double fraction = turns - std::floor(turns);
+  if constexpr (sizeof(T) == 4) {
+    return static_cast<std::uint32_t>(static_cast<std::uint64_t>(std::ldexp(fraction, 32) + 0.5));
+  } else {
+    return static_cast<std::uint64_t>(std::ldexp(fraction, 64));
+  }
+}
+
+}  // namespace
+
+/// How one body is laid out: found first for all bodies, so that the arrays can be sized once.
+template <class T>
+struct BodyBatch<T>::Plan {
+  Rings rings;
+  std::vector<Index> order;         ///< lane -> node
+  std::vector<std::uint32_t> lane;  ///< node -> lane
+  int outline_nodes = 0;
+
+  explicit Plan(const Body& body) : rings(make_rings(body)) {
+    order.resize(at(body.node_count()));
+    std::iota(order.begin(), order.end(), 0);
+    // Outline nodes in front, then by ring size: lanes of a group have nearly equal work.
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
+      const bool outer_a = rings.edges(a) > 0, outer_b = rings.edges(b) > 0;
+      if (outer_a != outer_b) return outer_a;
+      return rings.size(a) > rings.size(b);
+    });
+    lane.resize(order.size());
+    for (std::size_t l = 0; l < order.size(); ++l)
+      lane[at(order[l])] = static_cast<std::uint32_t>(l);
+    outline_nodes = static_cast<int>(
+        std::count_if(order.begin(), order.end(), [&](Index n) { return rings.edges(n) > 0; }));
+  }
+
+  int group_max(int group, int (Rings::*size)(Index) const) const {
+    int largest = 0;
+    for (int l = group * width;
+         l < std::min<int>((group + 1) * width, static_cast<int>(order.size())); ++l) {
+      largest = std::max(largest, (rings.*size)(order[at(l)]));
+    }
+    return largest;
+  }
+};
+
+template <class T>
+BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, int threads)
+    : extent_(tasks.size()), offset_(tasks.size() + 1) {
+  const auto count = static_cast<std::int64_t>(tasks.size());
+  std::vector<Plan> plans;
+  plans.reserve(tasks.size());
+  for (std::int64_t i = 0; i < count; ++i) plans.emplace_back(Body{});
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+  for (std::int64_t i = 0; i < count; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    Plan plan(*tasks[index].body);
+    Extent extent{};
+    extent.nodes = static_cast<int>(plan.order.size());
+    extent.groups = (extent.nodes + width - 1) / width;
+    extent.outline_groups = (plan.outline_nodes + width - 1) / width;
+    extent.outline_nodes = plan.outline_nodes;
+    extent.outline_edges = static_cast<int>(plan.rings.edge_other.size()) / 2;
+    for (int g = 0; g < extent.groups; ++g) extent.slots += plan.group_max(g, &Rings::size);
+    for (int g = 0; g < extent.outline_groups; ++g) {
+      extent.edge_slots += plan.group_max(g, &Rings::edges);
+    }
+    extent_[index] = extent;
+    plans[index] = std::move(plan);
+  }
+
+  Offset total{};
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const Extent& extent = extent_[i];
+    offset_[i] = total;
+    total.groups += at(extent.groups);
+    total.slots += at(extent.slots);
+    total.edge_groups += at(extent.outline_groups);
+    total.edge_slots += at(extent.edge_slots);
+    total.outline_nodes += at(extent.outline_nodes);
+    total.outline_edges += at(extent.outline_edges);
+  }
+  offset_.back() = total;
+
+  const std::size_t lanes = total.groups * width, slots = total.slots * width;
+  ring_begin_.resize(total.groups);
+  ring_size_.resize(total.groups);
+  edge_begin_.resize(total.edge_groups);
+  edge_size_.resize(total.edge_groups);
+  neighbour_.resize(slots);
+  rest_length_.assign(slots, T(1));
+  spring_.assign(slots, T(0));
+  rest_area2_.assign(slots, T(0));
+  ring_start_.resize(slots);
+  ring_per_step_.resize(slots);
+  edge_other_.resize(total.edge_slots * width);
+  edge_present_.assign(total.edge_slots * width, T(0));
+  inverse_mass_.assign(lanes, T(0));
+  node_start_.resize(lanes);
+  node_per_step_.resize(lanes);
+  records_a_.resize(lanes);
+  records_b_.resize(lanes);
+  vx_.assign(lanes, T(0));
+  vy_.assign(lanes, T(0));
+  extra_fx_.assign(lanes, T(0));
+  extra_fy_.assign(lanes, T(0));
+  node_of_lane_.assign(lanes, -1);
+  outline_nodes_.resize(total.outline_nodes);
+  outline_edges_.resize(total.outline_edges);
+
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+  for (std::int64_t i = 0; i < count; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    fill(index, tasks[index], plans[index], midpoint);
+  }
+}
+
+template <class T>
+void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& plan,
+                        bool midpoint) {
+  const Body& body = *task.body;
+  const Scene& scene = *task.scene;
+  const Extent& extent = extent_[i];
+  const Offset& offset = offset_[i];
+  const auto nodes = static_cast<std::size_t>(extent.nodes);
+  const double lowest =
+      scene.ground && nodes > 0 ? *std::min_element(body.y.begin(), body.y.end()) : 0;
+  const double first_time = midpoint ? scene.step / 2 : 0;
+
+  std::vector<kernels::Turn<T>> start(nodes), per_step(nodes);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    per_step[n] = fixed_turn<T>(scene.step / body.period[n]);
+    start[n] = fixed_turn<T>(first_time / body.period[n] + body.phase[n] / (2 * std::numbers::pi));
+  }
+
+  int slot = 0;
+  for (int g = 0; g < extent.groups; ++g) {
+    const std::size_t group = offset.groups + at(g);
+    ring_begin_[group] = slot;
+    ring_size_[group] = plan.group_max(g, &Rings::size);
+    for (int l = 0; l < width; ++l) {
+      const auto lane = static_cast<std::uint32_t>(g * width + l);
+      const std::size_t here = (offset.groups * width) + lane;
+      const bool real = lane < nodes;
+      const auto node = real ? at(plan.order[lane]) : 0;
+      if (real) {
+        node_of_lane_[here] = plan.order[lane];
+        inverse_mass_[here] = T(1);
+        node_start_[here] = start[node];
+        node_per_step_[here] = per_step[node];
+        records_a_[here] = {static_cast<T>(body.x[node]), static_cast<T>(body.y[node] - lowest),
+                            T(0), T(0)};
+      }
+      const int size = real ? plan.rings.size(plan.order[lane]) : 0;
+      for (int k = 0; k < ring_size_[group]; ++k) {
+        const std::size_t place = (offset.slots + at(slot + k)) * width + at(l);
+        if (k >= size) {
+          neighbour_[place] = lane;
+          continue;
+        }
+        const RingSlot& ring = plan.rings.slots[at(plan.rings.begin[node] + k)];
+        neighbour_[place] = plan.lane[at(ring.neighbour)];
+        ring_start_[place] = start[at(ring.neighbour)];
+        ring_per_step_[place] = per_step[at(ring.neighbour)];
+        if (ring.spring >= 0) {
+          spring_[place] = T(1);
+          rest_length_[place] = static_cast<T>(body.rest_length[at(ring.spring)]);
+        }
+        if (ring.triangle >= 0 && body.rest_area[at(ring.triangle)] >= scene.min_pressure_area) {
+          rest_area2_[place] = static_cast<T>(2 * body.rest_area[at(ring.triangle)]);
+        }
+      }
+    }
+    slot += ring_size_[group];
+  }
+
+  int edge_slot = 0;
+  for (int g = 0; g < extent.outline_groups; ++g) {
+    const std::size_t group = offset.edge_groups + at(g);
+    edge_begin_[group] = edge_slot;
+    edge_size_[group] = plan.group_max(g, &Rings::edges);
+    for (int l = 0; l < width; ++l) {
+      const auto lane = static_cast<std::uint32_t>(g * width + l);
+      const Index node = lane < nodes ? plan.order[lane] : -1;
+      const int size = node >= 0 ? plan.rings.edges(node) : 0;
+      for (int e = 0; e < edge_size_[group]; ++e) {
+        const std::size_t place = (offset.edge_slots + at(edge_slot + e)) * width + at(l);
+        edge_other_[place] = lane;
+        if (e < size) {
+          edge_other_[place] =
+              plan.lane[at(plan.rings.edge_other[at(plan.rings.edge_begin[at(node)] + e)])];
+          edge_present_[place] = T(1);
+        }
+      }
+    }
+    edge_slot += edge_size_[group];
+  }
+
+  for (int l = 0; l < extent.outline_nodes; ++l) {
+    outline_nodes_[offset.outline_nodes + at(l)] = {static_cast<std::uint32_t>(l),
+                                                    plan.order[at(l)]};
+  }
+  const auto outline = outline_of(body.triangles);
+  for (std::size_t e = 0; e < outline.size(); ++e) {
+    outline_edges_[offset.outline_edges + e] = {plan.lane[at(outline[e][0])],
+                                                plan.lane[at(outline[e][1])]};
+  }
+}
+
+template <class T>
+kernels::BodyView<T> BodyBatch<T>::view(std::size_t i) {
+  const Extent& extent = extent_[i];
+  const Offset& offset = offset_[i];
+  const std::size_t lanes = offset.groups * width, slots = offset.slots * width;
+  kernels::BodyView<T> view;
+  view.nodes = extent.nodes;
+  view.groups = extent.groups;
+  view.outline_groups = extent.outline_groups;
+  view.ring_begin = ring_begin_.data() + offset.groups;
+  view.ring_size = ring_size_.data() + offset.groups;
+  view.neighbour = neighbour_.data() + slots;
+  view.rest_length = rest_length_.data() + slots;
+  view.spring = spring_.data() + slots;
+  view.rest_area2 = rest_area2_.data() + slots;
+  view.ring_oscillator = {ring_start_.data() + slots, ring_per_step_.data() + slots};
+  view.node_oscillator = {node_start_.data() + lanes, node_per_step_.data() + lanes};
+  view.inverse_mass = inverse_mass_.data() + lanes;
+  view.edge_begin = edge_begin_.data() + offset.edge_groups;
+  view.edge_size = edge_size_.data() + offset.edge_groups;
+  view.edge_other = edge_other_.data() + offset.edge_slots * width;
+  view.edge_present = edge_present_.data() + offset.edge_slots * width;
+  view.now = records_a_.data() + lanes;
+  view.next = records_b_.data() + lanes;
+  view.vx = vx_.data() + lanes;
+  view.vy = vy_.data() + lanes;
+  view.extra_fx = extra_fx_.data() + lanes;
+  view.extra_fy = extra_fy_.data() + lanes;
+  return view;
+}
+
+template <class T>
+std::span<const Index> BodyBatch<T>::node_of_lane(std::size_t i) const {
+  return {node_of_lane_.data() + offset_[i].groups * width, at(extent_[i].groups) * width};
+}
+
+template <class T>
+std::span<const OutlineNode> BodyBatch<T>::outline_nodes(std::size_t i) const {
+  return {outline_nodes_.data() + offset_[i].outline_nodes, at(extent_[i].outline_nodes)};
+}
+
+template <class T>
+std::span<const std::array<std::uint32_t, 2>> BodyBatch<T>::outline_edges(std::size_t i) const {
+  return {outline_edges_.data() + offset_[i].outline_edges, at(extent_[i].outline_edges)};
+}
+
+template <class T>
+std::span<T> BodyBatch<T>::extra_fx(std::size_t i) {
+  return {extra_fx_.data() + offset_[i].groups * width, at(extent_[i].groups) * width};
+}
+
+template <class T>
+std::span<T> BodyBatch<T>::extra_fy(std::size_t i) {
+  return {extra_fy_.data() + offset_[i].groups * width, at(extent_[i].groups) * width};
+}
+
+template class BodyBatch<float>;
+template class BodyBatch<double>;
+
+}  // namespace metamorph::core

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <new>
+#include <span>
+#include <vector>
+
+#include "core/body.h"
+#include "core/locomotion.h"
+#include "core/scene.h"
+#include "kernels/body_step.h"
+#include "kernels/self_collision.h"
+
+namespace metamorph::core {
+
+/// Storage aligned to a register, as the kernels' loads and stores demand.
+template <class T>
+struct AlignedAllocator {
+  using value_type = T;
+  AlignedAllocator() = default;
+  template <class U>
+  AlignedAllocator(const AlignedAllocator<U>&) {}
+  T* allocate(std::size_t n) {
+    return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{64}));
+  }
+  void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t{64}); }
+  friend bool operator==(const AlignedAllocator&, const AlignedAllocator&) { return true; }
+};
+template <class T>
+using Aligned = std::vector<T, AlignedAllocator<T>>;
+
+/// An outline node of a packed body, with what self-collision needs of it.
+struct OutlineNode {
+  std::uint32_t lane;
+  Index node;  ///< in the Body
+};
+
+/// The bodies of many tasks as structure-of-arrays, ready for the kernels: every array holds all
+/// bodies one behind the other, each padded to whole lane groups. Constants of the bodies and their
+/// state; what belongs to the animat's run in time is in its runner.
+template <class T>
+class BodyBatch {
+ public:
+  static constexpr int width = kernels::Lanes<T>::width;
+
+  /// Packs the bodies of `tasks`; oscillators advance by the task's own step.
+  /// `midpoint`: forces are taken half a step later than the step's start (drift-kick-drift).
+  BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, int threads);
+
+  /// The kernels' view of body `i`, at rest in its starting position.
+  kernels::BodyView<T> view(std::size_t i);
+
+  /// lane -> node of the Body, for body `i`; -1 in idle lanes.
+  std::span<const Index> node_of_lane(std::size_t i) const;
+
+  /// Outline nodes and outline edges (lanes of both ends) of body `i`.
+  std::span<const OutlineNode> outline_nodes(std::size_t i) const;
+  std::span<const std::array<std::uint32_t, 2>> outline_edges(std::size_t i) const;
+
+  std::span<T> extra_fx(std::size_t i);
+  std::span<T> extra_fy(std::size_t i);
+
+ private:
+  struct Extent {
+    int nodes, groups, outline_groups, slots, edge_slots, outline_nodes, outline_edges;
+  };
+  struct Offset {
+    std::size_t groups, slots, edge_groups, edge_slots, outline_nodes, outline_edges;
+  };
+  struct Plan;
+
+  void fill(std::size_t i, const LocomotionTask& task, const Plan& plan, bool midpoint);
+
+  std::vector<Extent> extent_;
+  std::vector<Offset> offset_;
+
+  // [groups of all bodies], [slots], ... each entry `width` wide where lanes are concerned.
+  std::vector<int> ring_begin_, ring_size_, edge_begin_, edge_size_;
+  Aligned<std::uint32_t> neighbour_, edge_other_;
+  Aligned<T> rest_length_, spring_, rest_area2_, inverse_mass_, edge_present_;
+  Aligned<kernels::Turn<T>> ring_start_, ring_per_step_, node_start_, node_per_step_;
+  Aligned<kernels::NodeRecord<T>> records_a_, records_b_;
+  Aligned<T> vx_, vy_, extra_fx_, extra_fy_;
+  std::vector<Index> node_of_lane_;
+  std::vector<OutlineNode> outline_nodes_;
+  std::vector<std::array<std::uint32_t, 2>> outline_edges_;
+};
+
+extern template class BodyBatch<float>;
+extern template class BodyBatch<double>;
+
+}  // namespace metamorph::core

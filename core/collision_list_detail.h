@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/body_batch_detail.h"
+#include "kernels/self_collision.h"
+
+namespace metamorph::core {
+
+/// Candidate pairs of self-collision for one running animat: every pair of an outline node and an
+/// outline edge that could touch before anything has moved by half the skin. Renewed only then, so
+/// that it costs next to nothing while nothing is near, and never misses a pair.
+///
+/// Excluded are edges that a walk along the outline traverses first or second from the node. Pairs
+/// closer than the gap at rest keep their rest distance as threshold.
+template <class T>
+class CollisionList {
+ public:
+  /// Prepares for one body. Storage grows to the largest body met and is kept.
+  void reset(const Body& body, const Scene& scene, std::span<const OutlineNode> nodes,
+             std::span<const std::array<std::uint32_t, 2>> edges);
+
+  /// The pairs to test at the records' positions; renews the list if it is stale.
+  std::span<const kernels::CollisionPair<T>> pairs(const kernels::NodeRecord<T>* records);
+
+ private:
+  struct Edge {
+    std::uint32_t first, second;  ///< lanes
+    Index a, b;                   ///< nodes of the body
+  };
+
+  bool stale(const kernels::NodeRecord<T>* records) const;
+  void renew(const kernels::NodeRecord<T>* records);
+  bool excluded(std::size_t node, std::size_t edge) const;
+
+  const Body* body_ = nullptr;
+  T gap_ = 0, skin_ = 0;
+  bool valid_ = false;
+  std::span<const OutlineNode> nodes_;
+  std::vector<Edge> edges_;
+  std::vector<int> near_begin_;              ///< [outline nodes + 1] into near_edge_
+  std::vector<std::size_t> near_edge_;       ///< excluded edges of each node
+  std::vector<std::array<T, 2>> reference_;  ///< positions of the outline nodes at renewal
+  std::vector<kernels::CollisionPair<T>> pairs_;
+};
+
+extern template class CollisionList<float>;
+extern template class CollisionList<double>;
+
+}  // namespace metamorph::core

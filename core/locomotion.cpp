@@ -1,0 +1,97 @@
+#include "core/locomotion.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "core/body_batch_detail.h"
+#include "core/runner_detail.h"
+#include "core/stability.h"
+
+namespace metamorph::core {
+namespace {
+
+/// What is known of a task before anything moves; a status other than ok keeps it from running.
+Outcome before_running(const LocomotionTask& task, Method method) {
+  const Body& body = *task.body;
+  Outcome outcome = describe(body);
+  if (body.node_count() == 0) {
+    outcome.status = Status::empty;
+    return outcome;
+  }
+  if (const auto faults = check(body); !faults.empty()) {
+    outcome.status = faults.front().status;
+    return outcome;
+  }
+  if (!step_is_stable(body, *task.scene, method)) {
+    outcome.status = Status::step_too_large;
+    outcome.failed_value = task.scene->step;
+    outcome.failed_step = 0;
+  }
+  return outcome;
+}
+
+/// Work to expect of a task, in any unit: longest first keeps the threads busy to the end.
+double expected_work(const LocomotionTask& task) {
+  const double steps =
+      (task.scene->run_steps + (task.scene->ground ? 2000 : 0)) * paper_step / task.scene->step;
+  return steps * static_cast<double>(task.body->springs.size());
+}
+
+template <class T>
+std::vector<Outcome> run_all(std::span<const LocomotionTask> tasks,
+                             const LocomotionOptions& options, int every,
+                             const std::function<void(const Frame&)>& observe) {
+  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+  const auto count = static_cast<std::int64_t>(tasks.size());
+  std::vector<Outcome> outcomes(tasks.size());
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+  for (std::int64_t i = 0; i < count; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    outcomes[index] = before_running(tasks[index], options.method);
+  }
+
+  std::vector<std::size_t> sound;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    if (outcomes[i].status == Status::ok) sound.push_back(i);
+  }
+  std::stable_sort(sound.begin(), sound.end(), [&](std::size_t a, std::size_t b) {
+    return expected_work(tasks[a]) > expected_work(tasks[b]);
+  });
+  std::vector<LocomotionTask> packed;
+  for (std::size_t i : sound) packed.push_back(tasks[i]);
+
+  BodyBatch<T> batch(packed, options.method == Method::drift_kick_drift, threads);
+  const auto runs = static_cast<std::int64_t>(packed.size());
+#pragma omp parallel num_threads(threads)
+  {
+    Runner<T> runner(batch, options.method);
+#pragma omp for schedule(dynamic)
+    for (std::int64_t i = 0; i < runs; ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      runner.run(index, packed[index], outcomes[sound[index]], every, observe);
+    }
+  }
+  return outcomes;
+}
+
+}  // namespace
+
+std::vector<Outcome> simulate(std::span<const LocomotionTask> tasks,
+                              const LocomotionOptions& options) {
+  return options.precision == Precision::float32 ? run_all<float>(tasks, options, 0, {})
+                                                 : run_all<double>(tasks, options, 0, {});
+}
+
+Outcome simulate_observed(const LocomotionTask& task, const LocomotionOptions& options, int every,
+                          const std::function<void(const Frame&)>& observe) {
+  const std::span<const LocomotionTask> tasks(&task, 1);
+  return options.precision == Precision::float32
+             ? run_all<float>(tasks, options, every, observe).front()
+             : run_all<double>(tasks, options, every, observe).front();
+}
+
+}  // namespace metamorph::core

@@ -1,0 +1,299 @@
+#include "core/runner_detail.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace metamorph::core {
+namespace {
+
+// Failures are absorbing: a check now and then misses nothing, it is only late by so many steps.
+constexpr std::int64_t check_interval = 8;
+constexpr double collapse_ratio = 0.05;  ///< S/S0 below which the step resolves nothing
+constexpr double speed_limit = 4.0;      ///< sqrt(k/m) d: the pressure's barrier gives way above
+constexpr double travel_limit = 0.5;     ///< d per step
+
+std::int64_t steps_of(int paper_steps, double step) {
+  return std::llround(paper_steps * paper_step / step);
+}
+
+/// Every composition of terms, made once; picked by the scene's terms as bits.
+template <class T>
+using StepFunction = void (*)(const kernels::BodyView<T>&, const kernels::StepCoefficients<T>&,
+                              kernels::Turn<T>, kernels::StepExtremes<T>&);
+
+constexpr kernels::Terms terms_of(unsigned bits) {
+  return {.pressure = (bits & 1u) != 0,
+          .drag = (bits & 2u) != 0,
+          .ground = (bits & 4u) != 0,
+          .actuation = (bits & 8u) != 0,
+          .settling = (bits & 8u) == 0,
+          .extra = (bits & 16u) != 0};
+}
+
+constexpr unsigned bits_of(const kernels::Terms& terms) {
+  return (terms.pressure ? 1u : 0u) | (terms.drag ? 2u : 0u) | (terms.ground ? 4u : 0u) |
+         (terms.actuation ? 8u : 0u) | (terms.extra ? 16u : 0u);
+}
+
+template <class T, unsigned... bits>
+constexpr auto step_table(std::integer_sequence<unsigned, bits...>) {
+  return std::array<StepFunction<T>, sizeof...(bits)>{&kernels::step_body<T, terms_of(bits)>...};
+}
+
+template <class T>
+StepFunction<T> step_function(const kernels::Terms& terms) {
+  static constexpr auto table = step_table<T>(std::make_integer_sequence<unsigned, 32>{});
+  return table[bits_of(terms)];
+}
+
+template <class T>
+double largest(const kernels::Lanes<T>& pack) {
+  T value = pack[0];
+  for (int l = 1; l < kernels::Lanes<T>::width; ++l) value = std::max(value, pack[l]);
+  return static_cast<double>(value);
+}
+
+template <class T>
+kernels::StepCoefficients<T> coefficients(const Scene& scene, Method method) {
+  kernels::StepCoefficients<T> c;
+  const double angle = scene.slope_degrees * 3.14159265358979323846 / 180;
+  c.step = static_cast<T>(scene.step);
+  c.extrapolate = method == Method::drift_kick_drift ? static_cast<T>(scene.step / 2) : T(0);
+  c.stiffness = static_cast<T>(scene.stiffness);
+  c.damping = static_cast<T>(scene.damping);
+  c.pressure = static_cast<T>(scene.pressure);
+  c.drag_normal = static_cast<T>(scene.drag_normal);
+  c.drag_tangential = static_cast<T>(scene.drag_tangential);
+  c.gravity_x = static_cast<T>(-scene.gravity * std::sin(angle));
+  c.gravity_y = static_cast<T>(-scene.gravity * std::cos(angle));
+  c.ground_stiffness = static_cast<T>(scene.ground_stiffness);
+  c.ground_damping = static_cast<T>(scene.ground_damping);
+  c.friction = static_cast<T>(scene.friction);
+  c.settle_drag = static_cast<T>(scene.settle_drag);
+  return c;
+}
+
+}  // namespace
+
+template <class T>
+void Runner<T>::run(std::size_t i, const LocomotionTask& task, Outcome& outcome, int every,
+                    const std::function<void(const Frame&)>& observe) {
+  body_ = task.body;
+  scene_ = task.scene;
+  index_ = i;
+  view_ = batch_.view(i);
+  coefficients_ = coefficients<T>(*scene_, method_);
+  extremes_ = {};
+  touched_ = false;
+  if (scene_->self_collision) {
+    collisions_.reset(*body_, *scene_, batch_.outline_nodes(i), batch_.outline_edges(i));
+  }
+  if (scene_->ground && !settle(task, outcome)) return;
+  actuate(task, outcome, every, observe);
+}
+
+template <class T>
+void Runner<T>::step(std::uint64_t n) {
+  kernels::Terms terms;
+  terms.pressure = scene_->pressure > 0;
+  terms.drag = scene_->drag && !settling_;
+  terms.ground = scene_->ground;
+  terms.actuation = !settling_;
+  terms.settling = settling_;
+  terms.extra = false;
+  if (scene_->self_collision) {
+    const auto fx = batch_.extra_fx(index_), fy = batch_.extra_fy(index_);
+    if (touched_) {
+      std::fill(fx.begin(), fx.end(), T(0));
+      std::fill(fy.begin(), fy.end(), T(0));
+    }
+    const auto pairs = collisions_.pairs(view_.now);
+    touched_ = kernels::add_collision_forces(pairs.data(), static_cast<int>(pairs.size()),
+                                             view_.now, static_cast<T>(scene_->collision_stiffness),
+                                             fx.data(), fy.data()) > 0;
+    terms.extra = touched_;
+  }
+  step_function<T>(terms)(view_, coefficients_, static_cast<kernels::Turn<T>>(n), extremes_);
+  std::swap(view_.now, view_.next);
+}
+
+template <class T>
+bool Runner<T>::settle(const LocomotionTask& task, Outcome& outcome) {
+  const Scene& scene = *task.scene;
+  settling_ = true;
+  coefficients_.damping = static_cast<T>(scene.settle_damping);
+  coefficients_.amplitude = T(0);
+  const std::int64_t quiet_needed = steps_of(scene.settle_quiet_steps, scene.step);
+  const std::int64_t most = steps_of(scene.settle_max_steps, scene.step);
+  const double quiet2 = scene.settle_speed * scene.settle_speed;
+  std::int64_t quiet = 0, n = 0;
+  bool failed = false;
+  while (n < most && quiet < quiet_needed) {
+    const auto before = extremes_.largest_speed2;
+    extremes_.largest_speed2 = kernels::Lanes<T>(T(0));
+    step(static_cast<std::uint64_t>(n));
+    quiet = largest(extremes_.largest_speed2) < quiet2 ? quiet + 1 : 0;
+    extremes_.largest_speed2 = kernels::max(extremes_.largest_speed2, before);
+    ++n;
+    if (n % check_interval == 0) {
+      outcome.steps = n;
+      if (!sound(outcome)) {
+        failed = true;
+        break;
+      }
+    }
+  }
+  outcome.steps = n;
+  outcome.settle_time = static_cast<double>(n) * scene.step;
+  settling_ = false;
+  coefficients_.damping = static_cast<T>(scene.damping);
+  if (failed) return false;
+  if (quiet < quiet_needed) outcome.status = Status::not_settled;
+  return true;
+}
+
+template <class T>
+bool Runner<T>::actuate(const LocomotionTask& task, Outcome& outcome, int every,
+                        const std::function<void(const Frame&)>& observe) {
+  const Scene& scene = *task.scene;
+  const Mean start = mean_position();
+  const std::int64_t count = steps_of(scene.run_steps, scene.step);
+  const double ramp = scene.ramp_steps * paper_step;
+  const double offset = method_ == Method::drift_kick_drift ? 0.5 : 0;
+  const std::int64_t settled = outcome.steps;
+  if (observe) show(observe, 0);
+  for (std::int64_t n = 0; n < count; ++n) {
+    const double t = (static_cast<double>(n) + offset) * scene.step;
+    coefficients_.amplitude = static_cast<T>(scene.amplitude * (t < ramp ? t / ramp : 1.0));
+    step(static_cast<std::uint64_t>(n));
+    outcome.steps = settled + n + 1;
+    if (((n + 1) % check_interval == 0 || n + 1 == count) && !sound(outcome)) return false;
+    if (observe && (n + 1) % every == 0) show(observe, n + 1);
+  }
+  const Mean end = mean_position();
+  outcome.mean_position = {end.x - start.x, scene.ground ? end.y : end.y - start.y};
+  outcome.distance = travelled(scene.distance, end.x - start.x, end.y - start.y);
+  return true;
+}
+
+/// Looks at what the steps have seen; fills the failure's fields and returns false if it is one.
+template <class T>
+bool Runner<T>::sound(Outcome& outcome) {
+  const double speed = std::sqrt(largest(extremes_.largest_speed2));
+  const double largest_ratio = largest(extremes_.largest_ratio);
+  const double smallest_ratio = -largest(-extremes_.smallest_ratio);
+  T finite = T(0);
+  for (int l = 0; l < kernels::Lanes<T>::width; ++l) finite += extremes_.not_finite[l];
+  outcome.max_speed = std::max(outcome.max_speed, speed);
+  if (largest_ratio > 0)
+    outcome.min_area_ratio = std::min(outcome.min_area_ratio, 1 / largest_ratio);
+
+  if (!(finite == T(0)) || !std::isfinite(speed)) {
+    outcome.status = Status::non_finite;
+  } else if (smallest_ratio < 0) {
+    outcome.status = Status::inverted;
+    outcome.min_area_ratio = std::min(outcome.min_area_ratio, 0.0);
+  } else if (outcome.min_area_ratio < collapse_ratio) {
+    outcome.status = Status::collapsed;
+    outcome.failed_value = outcome.min_area_ratio;
+  } else if (speed > speed_limit || speed * scene_->step > travel_limit) {
+    outcome.status = Status::speed;
+    outcome.failed_value = speed;
+  } else {
+    return true;
+  }
+  outcome.failed_step = outcome.steps;
+  outcome.distance = 0;
+  locate_failure(outcome);
+  return false;
+}
+
+/// Index and value of a failure in the state it was found in: the node that is not finite or
+/// fastest, the triangle most squeezed or turned.
+template <class T>
+void Runner<T>::locate_failure(Outcome& outcome) const {
+  const auto lanes = batch_.node_of_lane(index_);
+  if (outcome.status == Status::inverted || outcome.status == Status::collapsed) {
+    std::vector<std::size_t> lane_of(static_cast<std::size_t>(body_->node_count()));
+    for (std::size_t l = 0; l < lanes.size(); ++l) {
+      if (lanes[l] >= 0) lane_of[static_cast<std::size_t>(lanes[l])] = l;
+    }
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t t = 0; t < body_->triangles.size(); ++t) {
+      if (body_->rest_area[t] < scene_->min_pressure_area) continue;
+      const auto& [a, b, c] = body_->triangles[t];
+      const auto& p = view_.now[lane_of[static_cast<std::size_t>(a)]];
+      const auto& q = view_.now[lane_of[static_cast<std::size_t>(b)]];
+      const auto& r = view_.now[lane_of[static_cast<std::size_t>(c)]];
+      const double area =
+          0.5 * (double(q.x - p.x) * double(r.y - p.y) - double(r.x - p.x) * double(q.y - p.y));
+      if (area / body_->rest_area[t] < smallest) {
+        smallest = area / body_->rest_area[t];
+        outcome.failed_index = static_cast<int>(t);
+      }
+    }
+    if (outcome.status == Status::inverted) outcome.failed_value = smallest;
+    return;
+  }
+  double fastest = -1;
+  for (std::size_t l = 0; l < lanes.size(); ++l) {
+    if (lanes[l] < 0) continue;
+    const double vx = static_cast<double>(view_.vx[l]), vy = static_cast<double>(view_.vy[l]);
+    const double speed2 = vx * vx + vy * vy;
+    if (!std::isfinite(speed2)) {
+      outcome.failed_index = lanes[l];
+      outcome.failed_value = speed2;
+      return;
+    }
+    if (speed2 > fastest) {
+      fastest = speed2;
+      outcome.failed_index = lanes[l];
+    }
+  }
+}
+
+// A record holds x_n + h/2 v_n with drift-kick-drift, x_n with symplectic Euler.
+template <class T>
+double Runner<T>::position_x(int lane) const {
+  return static_cast<double>(view_.now[lane].x) -
+         static_cast<double>(coefficients_.extrapolate) * static_cast<double>(view_.vx[lane]);
+}
+
+template <class T>
+double Runner<T>::position_y(int lane) const {
+  return static_cast<double>(view_.now[lane].y) -
+         static_cast<double>(coefficients_.extrapolate) * static_cast<double>(view_.vy[lane]);
+}
+
+template <class T>
+typename Runner<T>::Mean Runner<T>::mean_position() const {
+  double x = 0, y = 0;
+  for (int l = 0; l < view_.nodes; ++l) {
+    x += position_x(l);
+    y += position_y(l);
+  }
+  return {x / view_.nodes, y / view_.nodes};
+}
+
+template <class T>
+void Runner<T>::show(const std::function<void(const Frame&)>& observe, std::int64_t step_index) {
+  const auto lanes = batch_.node_of_lane(index_);
+  for (auto& values : frame_) values.resize(static_cast<std::size_t>(view_.nodes));
+  for (int l = 0; l < view_.nodes; ++l) {
+    const auto node = static_cast<std::size_t>(lanes[static_cast<std::size_t>(l)]);
+    frame_[0][node] = position_x(l);
+    frame_[1][node] = position_y(l);
+    frame_[2][node] = static_cast<double>(view_.vx[l]);
+    frame_[3][node] = static_cast<double>(view_.vy[l]);
+  }
+  observe({step_index, static_cast<double>(step_index) * scene_->step, frame_[0], frame_[1],
+           frame_[2], frame_[3]});
+}
+
+template class Runner<float>;
+template class Runner<double>;
+
+}  // namespace metamorph::core

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/body_batch_detail.h"
+#include "core/collision_list_detail.h"
+#include "core/locomotion.h"
+
+namespace metamorph::core {
+
+/// Takes one animat of a batch at a time through its whole evaluation: settle, actuate, measure.
+/// One per thread; storage is kept from animat to animat, nothing is allocated inside a step.
+template <class T>
+class Runner {
+ public:
+  Runner(BodyBatch<T>& batch, Method method) : batch_(batch), method_(method) {}
+
+  /// Runs body `i` of the batch and fills `outcome`. `observe` (may be empty) is called at the
+  /// start of actuation and after every `every` steps.
+  void run(std::size_t i, const LocomotionTask& task, Outcome& outcome, int every,
+           const std::function<void(const Frame&)>& observe);
+
+ private:
+  struct Mean {
+    double x, y;
+  };
+
+  bool settle(const LocomotionTask& task, Outcome& outcome);
+  bool actuate(const LocomotionTask& task, Outcome& outcome, int every,
+               const std::function<void(const Frame&)>& observe);
+  void step(std::uint64_t n);
+  bool sound(Outcome& outcome);
+  void locate_failure(Outcome& outcome) const;
+  double position_x(int lane) const;
+  double position_y(int lane) const;
+  Mean mean_position() const;
+  void show(const std::function<void(const Frame&)>& observe, std::int64_t step_index);
+
+  BodyBatch<T>& batch_;
+  Method method_;
+
+  // The animat being run.
+  const Body* body_ = nullptr;
+  const Scene* scene_ = nullptr;
+  std::size_t index_ = 0;
+  kernels::BodyView<T> view_{};
+  kernels::StepCoefficients<T> coefficients_{};
+  kernels::StepExtremes<T> extremes_{};
+  bool settling_ = false;
+  bool touched_ = false;  ///< the extra forces hold something
+  CollisionList<T> collisions_;
+  std::vector<double> frame_[4];
+};
+
+extern template class Runner<float>;
+extern template class Runner<double>;
+
+}  // namespace metamorph::core

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "kernels/lanes.h"
+#include "kernels/node_record.h"
+
+/// The layout of one body for the fused step.
+///
+/// Lane = node. Nodes are sorted (outline first, then by ring size) and cut into groups of one
+/// register's width. Every node carries its ring: the neighbours around it, counter-clockwise, one
+/// slot each, so that it sums its own springs and triangle corners and nothing is ever scattered.
+/// Each spring is thus computed twice and each triangle three times, which is still faster than
+/// gathers and scatters over a spring list (measured: see bench/). A closed ring repeats its first
+/// neighbour in a last slot that holds a triangle but no spring; a pinch node holds one fan after
+/// the other, with no triangle in the slot where the next fan begins.
+namespace metamorph::kernels {
+
+template <class T>
+using Turn = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+
+/// A phase as a fraction of a turn in fixed point: 2^bits is one turn, so phases wrap exactly.
+template <class T>
+struct OscillatorView {
+  const Turn<T>* start;     ///< phase at step 0
+  const Turn<T>* per_step;  ///< advance of one step
+};
+
+template <class T>
+struct BodyView {
+  int nodes = 0;           ///< real nodes; lanes beyond them are idle
+  int groups = 0;          ///< ceil(nodes / width)
+  int outline_groups = 0;  ///< the first groups, which hold every outline node
+
+  // [groups]
+  const int* ring_begin = nullptr;  ///< first slot of the group
+  const int* ring_size = nullptr;   ///< its slots
+  // [slots * width]
+  const std::uint32_t* neighbour = nullptr;  ///< itself where the lane has no such slot
+  const T* rest_length = nullptr;            ///< L0, d
+  const T* spring = nullptr;                 ///< 1 if the slot holds a spring, else 0
+  const T* rest_area2 = nullptr;  ///< 2 S0 of the triangle to the slot before, d^2; 0: no pressure
+  OscillatorView<T> ring_oscillator{};
+  // [groups * width]
+  OscillatorView<T> node_oscillator{};
+  const T* inverse_mass = nullptr;  ///< 1; 0 in an idle lane
+
+  // Outline edges of the nodes of the first groups, one slot per edge of a node.
+  const int* edge_begin = nullptr;            ///< [outline_groups] first edge slot
+  const int* edge_size = nullptr;             ///< [outline_groups]
+  const std::uint32_t* edge_other = nullptr;  ///< [edge slots * width] the edge's other end
+  const T* edge_present = nullptr;            ///< [edge slots * width] 1 or 0
+
+  // State. A record holds the position at which forces are taken and the velocity extrapolated to
+  // the same moment; `vx`, `vy` the velocity after the last kick.
+  NodeRecord<T>* now = nullptr;   ///< [groups * width]
+  NodeRecord<T>* next = nullptr;  ///< [groups * width]
+  T* vx = nullptr;                ///< [groups * width]
+  T* vy = nullptr;
+
+  // Forces from outside the step (self-collision), zero where there are none.
+  const T* extra_fx = nullptr;  ///< [groups * width]
+  const T* extra_fy = nullptr;
+};
+
+/// The group's base in arrays of one entry per node lane, and a slot's base in ring arrays.
+template <class T>
+constexpr int lane_index(int group_or_slot) {
+  return group_or_slot * Lanes<T>::width;
+}
+
+}  // namespace metamorph::kernels

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+
+#if defined(__AVX2__) && defined(__FMA__)
+#include <immintrin.h>
+#endif
+
+namespace metamorph::kernels {
+
+/// A lane pack: `width` numbers that go through the same arithmetic side by side. It fills one
+/// vector register of the target (16 floats with AVX-512, 8 with AVX2, 4 otherwise).
+///
+/// Every operation is correctly rounded (+ - * / sqrt fma) or exact, and acts on each lane alone,
+/// so a lane's result depends neither on the width nor on the instruction set. That is why there is
+/// no approximate reciprocal here and why fma is always explicit: contraction by the compiler is
+/// off.
+///
+/// The arithmetic is GCC's and clang's vector extension; only the operations that the extension
+/// lacks (fma, sqrt) name instructions.
+template <class T>
+struct Lanes;
+
+#if defined(__AVX512F__)
+inline constexpr int register_bytes = 64;
+#elif defined(__AVX2__) && defined(__FMA__)
+inline constexpr int register_bytes = 32;
+#else
+inline constexpr int register_bytes = 16;
+#endif
+
+template <class T>
+using LaneInt = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
+
+template <class T>
+struct LaneTypes {
+  static constexpr int width = register_bytes / static_cast<int>(sizeof(T));
+  typedef T Vector __attribute__((vector_size(register_bytes)));
+  typedef LaneInt<T> Mask __attribute__((vector_size(register_bytes)));
+};
+
+/// Truth per lane: all bits set or none.
+template <class T>
+struct LaneMask {
+  typename LaneTypes<T>::Mask v;
+  friend LaneMask operator&(LaneMask a, LaneMask b) { return {a.v & b.v}; }
+  friend LaneMask operator|(LaneMask a, LaneMask b) { return {a.v | b.v}; }
+};
+
+template <class T>
+struct Lanes {
+  static constexpr int width = LaneTypes<T>::width;
+  using Vector = typename LaneTypes<T>::Vector;
+  using Mask = LaneMask<T>;
+  Vector v;
+
+  Lanes() = default;
+  Lanes(Vector vector) : v(vector) {}
+  Lanes(T value) : v(value - Vector{}) {}
+
+  static Lanes load(const T* p) { return *reinterpret_cast<const Vector*>(p); }  // aligned
+  void store(T* p) const { *reinterpret_cast<Vector*>(p) = v; }                  // aligned
+  T operator[](int lane) const { return v[lane]; }
+
+  friend Lanes operator+(Lanes a, Lanes b) { return a.v + b.v; }
+  friend Lanes operator-(Lanes a, Lanes b) { return a.v - b.v; }
+  friend Lanes operator*(Lanes a, Lanes b) { return a.v * b.v; }
+  friend Lanes operator/(Lanes a, Lanes b) { return a.v / b.v; }
+  friend Lanes operator-(Lanes a) { return -a.v; }
+  Lanes& operator+=(Lanes b) { return *this = *this + b; }
+  Lanes& operator*=(Lanes b) { return *this = *this * b; }
+
+  friend Mask operator<(Lanes a, Lanes b) { return {a.v < b.v}; }
+  friend Mask operator>(Lanes a, Lanes b) { return {a.v > b.v}; }
+};
+
+template <class T>
+inline Lanes<T> select(LaneMask<T> mask, Lanes<T> yes, Lanes<T> no) {
+  return mask.v ? yes.v : no.v;
+}
+/// The second argument where either is not a number.
+template <class T>
+inline Lanes<T> min(Lanes<T> a, Lanes<T> b) {
+  return a.v < b.v ? a.v : b.v;
+}
+template <class T>
+inline Lanes<T> max(Lanes<T> a, Lanes<T> b) {
+  return a.v > b.v ? a.v : b.v;
+}
+template <class T>
+inline Lanes<T> abs(Lanes<T> a) {
+  return max(a, -a);
+}
+
+/// a * b + c with one rounding.
+template <class T>
+inline Lanes<T> fma(Lanes<T> a, Lanes<T> b, Lanes<T> c) {
+#if defined(__AVX512F__)
+  if constexpr (sizeof(T) == 4) return Lanes<T>(_mm512_fmadd_ps(a.v, b.v, c.v));
+  if constexpr (sizeof(T) == 8) return Lanes<T>(_mm512_fmadd_pd(a.v, b.v, c.v));
+#elif defined(__AVX2__) && defined(__FMA__)
+  if constexpr (sizeof(T) == 4) return Lanes<T>(_mm256_fmadd_ps(a.v, b.v, c.v));
+  if constexpr (sizeof(T) == 8) return Lanes<T>(_mm256_fmadd_pd(a.v, b.v, c.v));
+#else
+  Lanes<T> r;
+  for (int l = 0; l < Lanes<T>::width; ++l) r.v[l] = std::fma(a.v[l], b.v[l], c.v[l]);
+  return r;
+#endif
+}
+
+template <class T>
+inline Lanes<T> sqrt(Lanes<T> a) {
+#if defined(__AVX512F__)
+  if constexpr (sizeof(T) == 4) return Lanes<T>(_mm512_sqrt_ps(a.v));
+  if constexpr (sizeof(T) == 8) return Lanes<T>(_mm512_sqrt_pd(a.v));
+#elif defined(__AVX2__) && defined(__FMA__)
+  if constexpr (sizeof(T) == 4) return Lanes<T>(_mm256_sqrt_ps(a.v));
+  if constexpr (sizeof(T) == 8) return Lanes<T>(_mm256_sqrt_pd(a.v));
+#else
+  Lanes<T> r;
+  for (int l = 0; l < Lanes<T>::width; ++l) r.v[l] = std::sqrt(a.v[l]);
+  return r;
+#endif
+}
+
+}  // namespace metamorph::kernels
