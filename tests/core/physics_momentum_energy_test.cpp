@@ -1,0 +1,235 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/reference_system_detail.h"
+#include "core/scene.h"
+#include "tests/bodies.h"
+#include "tests/physics.h"
+#include "tests/tolerance.h"
+
+namespace metamorph::tests {
+namespace {
+
+using core::ReferenceMethod;
+using core::ReferenceSystem;
+
+struct Momentum {
+  double x = 0, y = 0, angular = 0;
+};
+
+Momentum momentum(const ReferenceSystem& system) {
+  Momentum sum;
+  for (std::size_t i = 0; i < system.x.size(); ++i) {
+    sum.x += system.vx[i];
+    sum.y += system.vy[i];
+    sum.angular += system.x[i] * system.vy[i] - system.y[i] * system.vx[i];
+  }
+  return sum;
+}
+
+/// Momentum of a free, damped and actuated body after 10,000 steps of 0.1, against the start.
+Momentum momentum_change(ReferenceMethod method) {
+  core::Scene scene = vacuum_scene();
+  scene.damping = 0.2;
+  scene.amplitude = 0.15;
+  scene.self_collision = true;
+  ReferenceSystem system(blob_body(30, 1), scene);
+  disturb(system, 0.05, 0.05, 1);
+  const Momentum start = momentum(system);
+  for (int n = 0; n < 10000; ++n) system.step(method, 0.1 * n, 0.1);
+  const Momentum end = momentum(system);
+  return {end.x - start.x, end.y - start.y, end.angular - start.angular};
+}
+
+TEST(FreeBody, KeepsItsMomentum) {
+  // 30 nodes of speeds up to 0.3, places up to 40: forces are pairwise opposite up to rounding, and
+  // symplectic Euler and drift-kick-drift apply them at the places where they are central.
+  for (const ReferenceMethod method :
+       {ReferenceMethod::symplectic_euler, ReferenceMethod::drift_kick_drift}) {
+    const Momentum change = momentum_change(method);
+    const double linear = tolerance::drift(round_off_64, 30 * 0.3, 1e4);
+    EXPECT_TRUE(within(change.x, linear));
+    EXPECT_TRUE(within(change.y, linear));
+    EXPECT_TRUE(within(change.angular, 40 * linear));
+  }
+}
+
+TEST(FreeBody, RungeKuttaKeepsLinearMomentumExactlyAndAngularToItsOrder) {
+  const Momentum change = momentum_change(ReferenceMethod::runge_kutta_4);
+  const double linear = tolerance::drift(round_off_64, 30 * 0.3, 1e4);
+  EXPECT_TRUE(within(change.x, linear));
+  EXPECT_TRUE(within(change.y, linear));
+  // Local error (w h)^5/5! = 2.8e-5 of an oscillation of 0.05 d at 0.15 d per time unit in 30
+  // nodes, over 1e4 steps, of which damping leaves the first hundred.
+  EXPECT_TRUE(within(change.angular, 2.8e-5 * 0.05 * 0.15 * 30 * 100));
+}
+
+/// Energy of an undamped body along its way, as deviations from the start over the elastic energy
+/// at the start.
+struct EnergyRecord {
+  double first_half = 0, second_half = 0;  ///< largest deviation in each half of the time
+  double last = 0;                         ///< deviation at the end
+};
+
+EnergyRecord energy_record(ReferenceMethod method, double h, double duration) {
+  ReferenceSystem system(blob_body(20, 3), vacuum_scene());
+  disturb(system, 0.05, 0, 2);
+  const double start = system.potential_energy(0);
+  EnergyRecord record;
+  const long steps = std::lround(duration / h);
+  for (long n = 1; n <= steps; ++n) {
+    system.step(method, 0, h);
+    record.last = (system.potential_energy(0) + system.kinetic_energy()) / start - 1;
+    double& largest = 2 * n <= steps ? record.first_half : record.second_half;
+    largest = std::max(largest, std::fabs(record.last));
+  }
+  return record;
+}
+
+/// What drift-kick-drift conserves of an oscillation of frequency w is (1 - (w h)^2/4) K + U, so
+/// that K ends (w h)^2/4 above the U of the start; w_max^2 = 5.7 k + 4.3 c_p at rest (NUMERICS
+/// section 2).
+double leapfrog_energy_error(double h) { return 10.0 * h * h / 4; }
+
+TEST(Energy, DriftKickDriftStaysNearItAndHasNoTrend) {
+  double last = 0;
+  for (const double h : {0.2, 0.1, 0.05}) {
+    const EnergyRecord record = energy_record(ReferenceMethod::drift_kick_drift, h, 1000);
+    const double largest = std::max(record.first_half, record.second_half);
+    EXPECT_TRUE(within(largest, leapfrog_energy_error(h))) << "h " << h;
+    // No trend: rounding and the luck of extremes aside, the halves deviate alike.
+    EXPECT_LT(record.second_half, 1.25 * record.first_half) << "h " << h;
+    if (last > 0) {
+      EXPECT_NEAR(largest / last, 0.25, 0.05 * tolerance_scale()) << "h " << h;
+    }
+    last = largest;
+  }
+}
+
+TEST(Energy, SymplecticEulerErrsInProportionToTheStep) {
+  double last = 0;
+  for (const double h : {0.1, 0.05, 0.025}) {
+    const EnergyRecord record = energy_record(ReferenceMethod::symplectic_euler, h, 1000);
+    const double largest = std::max(record.first_half, record.second_half);
+    EXPECT_LT(record.second_half, 1.25 * record.first_half) << "h " << h;
+    if (last > 0) {
+      EXPECT_NEAR(largest / last, 0.5, 0.1 * tolerance_scale()) << "h " << h;
+    }
+    last = largest;
+  }
+}
+
+TEST(Energy, RungeKuttaLosesAndTheMidpointRuleGains) {
+  // Per step an oscillation of frequency w changes its energy by -(w h)^6/72 under RK4 and by
+  // +(w h)^4/4 under the midpoint rule.
+  const EnergyRecord lossy = energy_record(ReferenceMethod::runge_kutta_4, 0.2, 200);
+  EXPECT_LT(lossy.last, -1e-4);
+  EXPECT_EQ(std::max(lossy.first_half, lossy.second_half), -lossy.last);
+  const EnergyRecord growing = energy_record(ReferenceMethod::midpoint, 0.1, 200);
+  EXPECT_GT(growing.last, 0.1);
+  EXPECT_GT(growing.second_half, growing.first_half);
+}
+
+TEST(SlowEnergy, DriftKickDriftHasNoTrendOver4000) {
+  const EnergyRecord record = energy_record(ReferenceMethod::drift_kick_drift, 0.2, 4000);
+  EXPECT_TRUE(within(std::max(record.first_half, record.second_half), leapfrog_energy_error(0.2)));
+  EXPECT_LT(record.second_half, 1.25 * record.first_half);
+}
+
+/// A C of lattice points whose jaws can snap together.
+core::Body jaws() {
+  std::set<LatticePoint> points;
+  for (int v = 0; v < 8; ++v)
+    for (int u = -4; u < 8; ++u)
+      if (2 * u + v >= 0 && 2 * u + v <= 15 && (v < 2 || v > 5 || 2 * u + v <= 3))
+        points.insert({u, v});
+  return lattice_body(points);
+}
+
+/// Largest energy deviation while the jaws are driven into each other, and the smallest gap of a
+/// pair over its threshold.
+struct Bite {
+  double deviation = 0, smallest_gap = 1;
+};
+
+Bite bite(double h) {
+  core::Scene scene = vacuum_scene();
+  scene.self_collision = true;
+  ReferenceSystem system(jaws(), scene);
+  for (std::size_t i = 0; i < system.x.size(); ++i)
+    if (system.x[i] > 2.5) system.vy[i] = system.y[i] > 3 ? -0.3 : 0.3;
+  const double start = system.potential_energy(0) + system.kinetic_energy();
+  Bite result;
+  for (long n = 0; n < std::lround(60 / h); ++n) {
+    system.step(ReferenceMethod::drift_kick_drift, 0, h);
+    result.deviation =
+        std::max(result.deviation,
+                 std::fabs((system.potential_energy(0) + system.kinetic_energy()) / start - 1));
+    const auto pairs = system.collision_pairs();
+    for (std::size_t p = 0; p < pairs.threshold.size(); ++p) {
+      if (pairs.threshold[p] == 0) continue;
+      const double gap =
+          kernels::reference::closest_point(pairs.nodes[p / pairs.edges.size()],
+                                            pairs.edges[p % pairs.edges.size()], system.x, system.y)
+              .gap;
+      result.smallest_gap = std::min(result.smallest_gap, gap / pairs.threshold[p]);
+    }
+  }
+  return result;
+}
+
+TEST(SelfCollision, IsElasticAndKeepsThingsApart) {
+  // The force has a kink where contact begins, so that the second-order energy error of the
+  // leapfrog need not fall by a full four per halving; it must fall.
+  const Bite coarse = bite(0.1), fine = bite(0.05);
+  EXPECT_LT(coarse.smallest_gap, 0.9);  // they did touch
+  EXPECT_GT(coarse.smallest_gap, 0.0);
+  EXPECT_TRUE(within(coarse.deviation, leapfrog_energy_error(0.1)));
+  EXPECT_TRUE(within(fine.deviation, coarse.deviation / 2));
+}
+
+TEST(FreeFall, MovesEveryNodeAlikeWhateverTheBodyIs) {
+  core::Scene scene = core::land_scene();
+  scene.amplitude = 0;
+  ReferenceSystem system(blob_body(40, 5), scene);
+  for (double& y : system.y) y += 16;
+  const std::vector<double> x = system.x, y = system.y;
+  for (int n = 0; n < 200; ++n) system.step(ReferenceMethod::drift_kick_drift, 0.1 * n, 0.1);
+  // y = y0 - g t^2/2; rounding of places up to 32.
+  const double rounding = tolerance::drift(round_off_64, 32, 200);
+  double sideways = 0, fall = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sideways = std::max(sideways, std::fabs(system.x[i] - x[i]));
+    fall = std::max(fall, std::fabs(system.y[i] - y[i] + 0.02 * 20 * 20 / 2));
+  }
+  EXPECT_TRUE(within(sideways, rounding));
+  EXPECT_TRUE(within(fall, rounding));
+}
+
+TEST(Mass, ScalesWithStiffnessDampingAndDragBitByBit) {
+  // Twice everything that makes a force moves twice the mass alike.
+  core::Scene scene = core::water_scene();
+  core::Scene heavy = scene;
+  heavy.stiffness *= 2;
+  heavy.damping *= 2;
+  heavy.pressure *= 2;
+  heavy.drag_normal *= 2;
+  heavy.drag_tangential *= 2;
+  heavy.collision_stiffness *= 2;
+  const core::Body body = blob_body(30, 6);
+  ReferenceSystem one(body, scene), two(body, heavy);
+  two.mass = 2;
+  for (int n = 0; n < 1000; ++n) {
+    one.step(ReferenceMethod::drift_kick_drift, 0.2 * n, 0.2);
+    two.step(ReferenceMethod::drift_kick_drift, 0.2 * n, 0.2);
+  }
+  EXPECT_EQ(one.x, two.x);
+  EXPECT_EQ(one.y, two.y);
+}
+
+}  // namespace
+}  // namespace metamorph::tests
