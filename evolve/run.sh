@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, and evolves a small water-to-land run (about a minute on two
+# cores):
+#   bash evolve/run.sh [options of `metamorph evolve`, for instance --seed 7 --generations 100]
+# Every call makes a new run in runs/; nothing there is overwritten.
+. "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+
+SECONDS=0
+need "$needs_of_program" || fail 'Cannot build without these.'
+# The tests and benchmarks need more packages; where they are configured already they stay so.
+options=()
+[ -f build/release/CMakeCache.txt ] || options=(-DMETAMORPH_TESTS=OFF -DMETAMORPH_BENCH=OFF)
+configure release "${options[@]}" && build release metamorph || fail 'The build failed.'
+metamorph=build/release/evolve/metamorph
+say "set-up and build took $(took $SECONDS)"
+
+mkdir -p runs
+number=1
+while [ -e "runs/first-$number" ]; do number=$((number + 1)); done
+out=runs/first-$number
+start=$SECONDS
+# Defaults of a small run, each of them unless the caller names the option.
+defaults=()
+while read -r option value; do
+  case " $* " in *" $option"[\ =]*) ;; *) defaults+=("$option" "$value") ;; esac
+done <<END
+--out $out
+--seed $number
+--population 60
+--generations 30
+END
+"$metamorph" evolve evolve/experiments/water-to-land-simple.toml "${defaults[@]}" "$@" || exit
+[ -d "$out" ] || exit 0
+say "evolution took $(took $((SECONDS - start)))"
+say
+say "The run lies in $out:"
+ls "$out" | sed 's/^/  /'
+say "What to do next:"
+say "  $metamorph info $out                      what it holds"
+say "  $metamorph audit $out                     how far its distances can be trusted"
+say "  $metamorph render $out --out champion.svg its champion as a picture"
+say "  $metamorph evolve --help                  experiments, options, resuming"
+say "  bash evolve/run.sh                        another run, with another seed"

@@ -1,0 +1,200 @@
+#include "evolve/view/canvas.h"
+
+#include <cairo/cairo-pdf.h>
+#include <cairo/cairo-svg.h>
+#include <cairo/cairo.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <stdexcept>
+
+namespace metamorph::evolve {
+namespace {
+
+constexpr double png_density = 2;  // pixels per layout pixel
+constexpr const char* font = "DejaVu Sans";
+
+using SurfacePointer = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+using ContextPointer = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
+
+void select_font(cairo_t* cairo, double size, bool bold) {
+  cairo_select_font_face(cairo, font, CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cairo, size);
+}
+
+double width_of(cairo_t* cairo, const std::string& words) {
+  cairo_text_extents_t extents;
+  cairo_text_extents(cairo, words.c_str(), &extents);
+  return extents.x_advance;
+}
+
+cairo_status_t append(void* bytes, const unsigned char* data, unsigned int length) {
+  static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+SurfacePointer create(const std::string& file, std::string& svg, double width, double height) {
+  cairo_surface_t* surface = nullptr;
+  if (file.ends_with(".svg")) {
+    surface = cairo_svg_surface_create_for_stream(append, &svg, width, height);
+  } else if (file.ends_with(".pdf")) {
+    surface = cairo_pdf_surface_create(file.c_str(), width, height);
+  } else if (file.ends_with(".png")) {
+    surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24,
+                                         static_cast<int>(std::lround(width * png_density)),
+                                         static_cast<int>(std::lround(height * png_density)));
+    cairo_surface_set_device_scale(surface, png_density, png_density);
+  } else {
+    throw std::runtime_error(file + ": a picture's name ends in .svg, .png or .pdf");
+  }
+  return {surface, cairo_surface_destroy};
+}
+
+}  // namespace
+
+struct Canvas::Surface {
+  std::string file;
+  std::string svg;  // complete after cairo_surface_finish()
+  SurfacePointer surface;
+  ContextPointer context;
+
+  Surface(const std::string& name, double width, double height)
+      : file(name),
+        surface(create(name, svg, width, height)),
+        context(cairo_create(surface.get()), cairo_destroy) {
+    check(cairo_surface_status(surface.get()));
+  }
+
+  void check(cairo_status_t status) const {
+    if (status != CAIRO_STATUS_SUCCESS) fail(cairo_status_to_string(status));
+  }
+
+  [[noreturn]] void fail(const std::string& why) const {
+    throw std::runtime_error(file + ": cannot be written: " + why);
+  }
+
+  // Cairo numbers the one group of a picture by all surfaces the process ever made; without the
+  // number the same picture has the same bytes.
+  void write_svg() {
+    const std::string id = "id=\"surface";
+    const std::size_t start = svg.find(id), end = svg.find('"', start + id.size());
+    if (start != std::string::npos && end != std::string::npos) {
+      svg.replace(start, end - start, "id=\"picture");
+    }
+    std::ofstream stream(file, std::ios::binary);
+    stream << svg;
+    stream.close();
+    if (!stream) fail("the folder is missing, write-protected or full");
+  }
+
+  cairo_t* cairo() const { return context.get(); }
+
+  void use(const Colour& c) const {
+    cairo_set_source_rgba(cairo(), c.red, c.green, c.blue, c.alpha);
+  }
+
+  void path(std::span<const Point> points) const {
+    cairo_new_path(cairo());
+    for (const Point& p : points) cairo_line_to(cairo(), p.x, p.y);
+  }
+};
+
+Canvas::Canvas(const std::string& file, double width, double height)
+    : surface_(std::make_unique<Surface>(file, width, height)) {
+  cairo_t* cairo = surface_->cairo();
+  cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+  surface_->use(colours::paper);
+  cairo_paint(cairo);
+}
+
+Canvas::~Canvas() = default;
+
+void Canvas::look_at(Point origin, double scale) {
+  cairo_matrix_t matrix;
+  cairo_matrix_init(&matrix, scale, 0, 0, -scale, origin.x, origin.y);
+  cairo_set_matrix(surface_->cairo(), &matrix);
+}
+
+void Canvas::look_at_layout() { cairo_identity_matrix(surface_->cairo()); }
+
+void Canvas::fill_polygon(std::span<const Point> points, const Colour& colour) {
+  surface_->use(colour);
+  surface_->path(points);
+  cairo_fill(surface_->cairo());
+}
+
+void Canvas::fill_tile(std::span<const Point> points, const Colour& colour) {
+  surface_->use(colour);
+  surface_->path(points);
+  cairo_close_path(surface_->cairo());
+  cairo_fill_preserve(surface_->cairo());
+  cairo_set_line_width(surface_->cairo(), 0.03);
+  cairo_stroke(surface_->cairo());
+}
+
+void Canvas::stroke_line(std::span<const Point> points, const Colour& colour, double width,
+                         bool dashed) {
+  cairo_t* cairo = surface_->cairo();
+  const double dash = 4 * width;
+  cairo_set_dash(cairo, &dash, dashed ? 1 : 0, 0);
+  surface_->use(colour);
+  surface_->path(points);
+  cairo_set_line_width(cairo, width);
+  cairo_stroke(cairo);
+  cairo_set_dash(cairo, nullptr, 0, 0);
+}
+
+void Canvas::fill_circle(Point centre, double radius, const Colour& colour) {
+  surface_->use(colour);
+  cairo_new_path(surface_->cairo());
+  cairo_arc(surface_->cairo(), centre.x, centre.y, radius, 0, 2 * std::numbers::pi);
+  cairo_fill(surface_->cairo());
+}
+
+void Canvas::stroke_circle(Point centre, double radius, const Colour& colour, double width) {
+  surface_->use(colour);
+  cairo_new_path(surface_->cairo());
+  cairo_arc(surface_->cairo(), centre.x, centre.y, radius, 0, 2 * std::numbers::pi);
+  cairo_set_line_width(surface_->cairo(), width);
+  cairo_stroke(surface_->cairo());
+}
+
+void Canvas::text(Point at, const std::string& words, double size, const Colour& colour,
+                  Align align, bool bold) {
+  cairo_t* cairo = surface_->cairo();
+  select_font(cairo, size, bold);
+  double x = at.x;
+  if (align == Align::centre) x -= width_of(cairo, words) / 2;
+  if (align == Align::right) x -= width_of(cairo, words);
+  surface_->use(colour);
+  cairo_move_to(cairo, x, at.y);
+  cairo_show_text(cairo, words.c_str());
+}
+
+void Canvas::finish() {
+  surface_->check(cairo_status(surface_->cairo()));
+  if (surface_->file.ends_with(".png")) {
+    surface_->check(cairo_surface_write_to_png(surface_->surface.get(), surface_->file.c_str()));
+  }
+  cairo_surface_finish(surface_->surface.get());
+  surface_->check(cairo_surface_status(surface_->surface.get()));
+  if (surface_->file.ends_with(".svg")) surface_->write_svg();
+}
+
+double text_width(const std::string& words, double size, bool bold) {
+  const SurfacePointer surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1),
+                               cairo_surface_destroy);
+  const ContextPointer context(cairo_create(surface.get()), cairo_destroy);
+  select_font(context.get(), size, bold);
+  return width_of(context.get(), words);
+}
+
+bool is_picture_file(const std::string& file) {
+  return file.ends_with(".svg") || file.ends_with(".png") || file.ends_with(".pdf");
+}
+
+}  // namespace metamorph::evolve

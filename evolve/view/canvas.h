@@ -1,0 +1,58 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "evolve/view/colour.h"
+
+namespace metamorph::evolve {
+
+struct Point {
+  double x = 0, y = 0;
+};
+
+enum class Align { left, centre, right };
+
+/// A picture file being drawn. Coordinates are layout pixels with y down until look_at() maps a
+/// part of the picture to lengths in d with y up; line widths and radii follow the same unit.
+/// Which file it becomes is decided by the name: .svg, .png (two pixels per layout pixel) or .pdf.
+class Canvas {
+ public:
+  /// Throws std::runtime_error for another ending or if the file cannot be written.
+  Canvas(const std::string& file, double width, double height);
+  ~Canvas();
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  /// Puts (0, 0) of the model at `origin` (layout pixels), `scale` pixels per d, y up.
+  void look_at(Point origin, double scale);
+  /// Back to layout pixels.
+  void look_at_layout();
+
+  void fill_polygon(std::span<const Point> points, const Colour& colour);
+  /// Fills and strokes in one colour, so that neighbours show no seam.
+  void fill_tile(std::span<const Point> points, const Colour& colour);
+  void stroke_line(std::span<const Point> points, const Colour& colour, double width,
+                   bool dashed = false);
+  void fill_circle(Point centre, double radius, const Colour& colour);
+  void stroke_circle(Point centre, double radius, const Colour& colour, double width);
+  /// Base line at `at`; size in layout pixels.
+  void text(Point at, const std::string& words, double size, const Colour& colour,
+            Align align = Align::left, bool bold = false);
+
+  /// Completes the file. Throws std::runtime_error if it could not be written.
+  void finish();
+
+ private:
+  struct Surface;
+  std::unique_ptr<Surface> surface_;
+};
+
+/// Width of a line of text in layout pixels.
+double text_width(const std::string& words, double size, bool bold = false);
+
+/// True for file names that a Canvas can write.
+bool is_picture_file(const std::string& file);
+
+}  // namespace metamorph::evolve

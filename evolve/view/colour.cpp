@@ -1,0 +1,41 @@
+#include "evolve/view/colour.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace metamorph::evolve {
+
+Colour mix(const Colour& a, const Colour& b, double t) {
+  return {std::lerp(a.red, b.red, t), std::lerp(a.green, b.green, t), std::lerp(a.blue, b.blue, t),
+          std::lerp(a.alpha, b.alpha, t)};
+}
+
+Colour strain_colour(double area_ratio, double range) {
+  const double strain = std::clamp((area_ratio - 1) / range, -1.0, 1.0);
+  const Colour& end = strain < 0 ? colours::contracted : colours::expanded;
+  return mix(colours::paper, end, std::abs(strain));
+}
+
+namespace {
+
+double srgb(double linear) {
+  const double v = std::clamp(linear, 0.0, 1.0);
+  return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+}
+
+}  // namespace
+
+Colour phase_colour(double phase) {
+  // A circle of constant lightness and chroma in Oklab (Ottosson 2020), so that no phase stands
+  // out.
+  constexpr double lightness = 0.74, chroma = 0.125;
+  const double a = chroma * std::cos(phase), b = chroma * std::sin(phase);
+  const double l = std::pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
+  const double m = std::pow(lightness - 0.1055613458 * a - 0.0638541728 * b, 3);
+  const double s = std::pow(lightness - 0.0894841775 * a - 1.2914855480 * b, 3);
+  return {srgb(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
+          srgb(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
+          srgb(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
+}
+
+}  // namespace metamorph::evolve

@@ -1,0 +1,32 @@
+#pragma once
+
+namespace metamorph::evolve {
+
+/// sRGB with opacity, each in [0, 1].
+struct Colour {
+  double red = 0, green = 0, blue = 0, alpha = 1;
+  bool operator==(const Colour&) const = default;
+};
+
+namespace colours {
+inline constexpr Colour ink{0.13, 0.15, 0.19};         ///< text, outlines
+inline constexpr Colour faint_ink{0.42, 0.45, 0.50};   ///< captions, scale bar
+inline constexpr Colour paper{1, 1, 1};                ///< background
+inline constexpr Colour larva{0.33, 0.58, 0.84};       ///< cells born before metamorphosis
+inline constexpr Colour adult{0.88, 0.38, 0.33};       ///< cells born in metamorphosis
+inline constexpr Colour contracted{0.16, 0.38, 0.76};  ///< the end of the strain scale below 1
+inline constexpr Colour expanded{0.83, 0.20, 0.18};    ///< the end of the strain scale above 1
+inline constexpr Colour ground{0.55, 0.52, 0.46};
+}  // namespace colours
+
+/// (1 - t) a + t b in every channel; t in [0, 1].
+Colour mix(const Colour& a, const Colour& b, double t);
+
+/// Colour of a triangle squeezed or stretched to `area_ratio` = S/S0: white at rest, blue
+/// contracted, red expanded (figures 3, 6); saturated at 1 -+ `range`.
+Colour strain_colour(double area_ratio, double range = 0.4);
+
+/// Colour of a phase shift in radians (figure 9): cyclic, of even lightness.
+Colour phase_colour(double phase);
+
+}  // namespace metamorph::evolve

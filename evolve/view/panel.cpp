@@ -1,0 +1,210 @@
+#include "evolve/view/panel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace metamorph::evolve {
+namespace {
+
+constexpr double cell_radius = 0.5;  // d
+constexpr double body_margin = 0.25;
+
+Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
+Point operator*(double s, Point p) { return {s * p.x, s * p.y}; }
+Point middle(Point a, Point b) { return 0.5 * (a + b); }
+
+using Points = std::vector<Point>;
+
+Points points_of(std::span<const double> x, std::span<const double> y) {
+  Points points(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) points[i] = {x[i], y[i]};
+  return points;
+}
+
+const Point& at(const Points& points, core::Index i) { return points[static_cast<std::size_t>(i)]; }
+
+double area(const std::array<Point, 3>& p) {
+  return 0.5 * ((p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y));
+}
+
+// Every triangle is shared out among its corners by its medians, so that each cell shows its own
+// colour around its node.
+void draw_cells(Canvas& canvas, const core::Body& body, const Points& points,
+                const std::function<Colour(core::Index)>& colour) {
+  for (const auto& triangle : body.triangles) {
+    const Point a = at(points, triangle[0]), b = at(points, triangle[1]),
+                c = at(points, triangle[2]);
+    if (colour(triangle[0]) == colour(triangle[1]) && colour(triangle[1]) == colour(triangle[2])) {
+      canvas.fill_tile(std::array{a, b, c}, colour(triangle[0]));
+      continue;
+    }
+    const Point centre = (1.0 / 3) * (a + b + c);
+    const std::array<Point, 4> share[3] = {{a, middle(a, b), centre, middle(c, a)},
+                                           {b, middle(b, c), centre, middle(a, b)},
+                                           {c, middle(c, a), centre, middle(b, c)}};
+    for (std::size_t k = 0; k < 3; ++k) canvas.fill_tile(share[k], colour(triangle[k]));
+  }
+}
+
+void draw_mesh(Canvas& canvas, const core::Body& body, const Points& points, double pixel,
+               const Colour& springs, bool nodes) {
+  for (const auto& [i, j] : body.springs) {
+    const std::array line{at(points, i), at(points, j)};
+    canvas.stroke_line(line, springs, std::max(0.035, 0.35 * pixel));
+  }
+  for (const auto& [i, j] : core::outline_of(body.triangles)) {
+    const std::array line{at(points, i), at(points, j)};
+    canvas.stroke_line(line, colours::ink, std::max(0.11, 0.9 * pixel));
+  }
+  if (!nodes) return;
+  for (const Point& p : points) {
+    canvas.fill_circle(p, std::max(0.085, 0.7 * pixel), colours::ink);
+  }
+}
+
+Box box_of(const Points& points, double margin) {
+  Box box;
+  for (const Point& p : points) box.include(p, margin);
+  return box;
+}
+
+// An arrow of length 3 beginning where the body ends in that direction.
+Points arrow_for(const Points& points, Point direction) {
+  const double length = std::hypot(direction.x, direction.y);
+  const Point along = (1 / length) * direction, across{-along.y, along.x};
+  Point centre;
+  for (const Point& p : points) centre = centre + (1.0 / static_cast<double>(points.size())) * p;
+  double reach = 0;
+  for (const Point& p : points) {
+    // What lies beside the arrow's path does not push it away.
+    const Point from{p.x - centre.x, p.y - centre.y};
+    if (std::abs(from.x * across.x + from.y * across.y) < 1.2) {
+      reach = std::max(reach, from.x * along.x + from.y * along.y);
+    }
+  }
+  const auto place = [&](double forward, double sideways) {
+    return centre + (reach + 0.8 + forward) * along + sideways * across;
+  };
+  return {place(0, 0.18),    place(1.8, 0.18),  place(1.8, 0.65), place(3, 0),
+          place(1.8, -0.65), place(1.8, -0.18), place(0, -0.18)};
+}
+
+void draw_ground(Canvas& canvas, const Box& box, double height, double pixel) {
+  const double width = std::max(0.06, 0.8 * pixel);
+  const std::array line{Point{box.left, height}, Point{box.right, height}};
+  canvas.stroke_line(line, colours::ground, width);
+  for (double x = box.left + 0.6; x <= box.right; x += 0.9) {
+    const std::array hatch{Point{x, height}, Point{x - 0.5, height - 0.5}};
+    canvas.stroke_line(hatch, colours::ground, 0.6 * width);
+  }
+}
+
+}  // namespace
+
+void Box::include(Point point, double margin) {
+  if (empty) {
+    *this = {point.x - margin, point.y - margin, point.x + margin, point.y + margin, false};
+    return;
+  }
+  left = std::min(left, point.x - margin);
+  right = std::max(right, point.x + margin);
+  bottom = std::min(bottom, point.y - margin);
+  top = std::max(top, point.y + margin);
+}
+
+Newborn newborn_nodes(const core::Body& body, const core::Embryo& embryo, int larva_steps) {
+  Newborn newborn;
+  newborn.reserve(body.cell.size());
+  for (const core::Index cell : body.cell) {
+    newborn.push_back(embryo.birth_step[static_cast<std::size_t>(cell)] >= larva_steps);
+  }
+  return newborn;
+}
+
+Panel embryo_panel(const core::Embryo& embryo, int larva_steps) {
+  Panel panel;
+  const Points points = points_of(embryo.x, embryo.y);
+  panel.box = box_of(points, cell_radius + 0.1);
+  panel.draw = [embryo, points, larva_steps](Canvas& canvas, double pixel) {
+    const double line = std::max(0.05, 0.5 * pixel);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Colour& colour = embryo.birth_step[i] < larva_steps ? colours::larva : colours::adult;
+      canvas.fill_circle(points[i], cell_radius, mix(colour, colours::paper, 0.25));
+      canvas.stroke_circle(points[i], cell_radius - line / 2, mix(colour, colours::ink, 0.35),
+                           line);
+    }
+    for (const auto& [i, j] : embryo.links) {
+      const std::array ends{at(points, i), at(points, j)};
+      Colour colour = colours::ink;
+      colour.alpha = 0.55;
+      canvas.stroke_line(ends, colour, std::max(0.045, 0.4 * pixel));
+    }
+  };
+  return panel;
+}
+
+Panel body_panel(const core::Body& body, const Newborn& newborn, std::optional<Point> direction,
+                 bool ground) {
+  Panel panel;
+  const Points points = points_of(body.x, body.y);
+  panel.box = box_of(points, body_margin);
+  const double floor = panel.box.bottom + body_margin;
+  Points arrow;
+  if (direction && std::hypot(direction->x, direction->y) > 0) {
+    arrow = arrow_for(points, *direction);
+    for (const Point& p : arrow) panel.box.include(p);
+  }
+  if (ground) panel.box.include({panel.box.left, floor - 0.6});
+  const Box box = panel.box;
+  panel.draw = [=](Canvas& canvas, double pixel) {
+    if (ground) draw_ground(canvas, box, floor, pixel);
+    draw_cells(canvas, body, points, [&](core::Index i) {
+      const bool red = !newborn.empty() && newborn[static_cast<std::size_t>(i)];
+      return mix(red ? colours::adult : colours::larva, colours::paper, 0.25);
+    });
+    Colour springs = colours::ink;
+    springs.alpha = 0.5;
+    draw_mesh(canvas, body, points, pixel, springs, true);
+    if (!arrow.empty()) canvas.fill_polygon(arrow, colours::ink);
+  };
+  return panel;
+}
+
+Panel motion_panel(const core::Body& body, std::span<const double> x, std::span<const double> y,
+                   bool ground) {
+  Panel panel;
+  const Points points = points_of(x, y);
+  panel.box = box_of(points, body_margin);
+  if (ground) panel.box.include({panel.box.left, -0.6});
+  const Box box = panel.box;
+  panel.draw = [=](Canvas& canvas, double pixel) {
+    if (ground) draw_ground(canvas, box, 0, pixel);
+    for (std::size_t t = 0; t < body.triangles.size(); ++t) {
+      const auto& [i, j, k] = body.triangles[t];
+      const std::array corners{at(points, i), at(points, j), at(points, k)};
+      canvas.fill_tile(corners, strain_colour(area(corners) / body.rest_area[t]));
+    }
+    Colour springs = colours::ink;
+    springs.alpha = 0.25;
+    draw_mesh(canvas, body, points, pixel, springs, false);
+  };
+  return panel;
+}
+
+Panel phase_panel(const core::Body& body) {
+  Panel panel;
+  const Points points = points_of(body.x, body.y);
+  panel.box = box_of(points, body_margin);
+  panel.draw = [=](Canvas& canvas, double pixel) {
+    draw_cells(canvas, body, points, [&](core::Index i) {
+      return phase_colour(body.phase[static_cast<std::size_t>(i)]);
+    });
+    Colour springs = colours::ink;
+    springs.alpha = 0.3;
+    draw_mesh(canvas, body, points, pixel, springs, false);
+  };
+  return panel;
+}
+
+}  // namespace metamorph::evolve

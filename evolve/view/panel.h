@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/body.h"
+#include "core/development.h"
+#include "evolve/view/canvas.h"
+
+namespace metamorph::evolve {
+
+/// The part of the plane a drawing covers, in d. Empty until something is included.
+struct Box {
+  double left = 0, bottom = 0, right = 0, top = 0;
+  bool empty = true;
+
+  double width() const { return right - left; }
+  double height() const { return top - bottom; }
+  void include(Point point, double margin = 0);
+};
+
+/// One drawing of a sheet: draws itself in d, y up, inside its box.
+struct Panel {
+  std::string title;
+  std::string caption;
+  Box box;
+  /// `pixel` is the size of a layout pixel in d, for lines that must not vanish.
+  std::function<void(Canvas&, double pixel)> draw;
+};
+
+/// Which nodes of a body are cells born in metamorphosis. Empty: nothing is known, all are drawn
+/// as the larva's.
+using Newborn = std::vector<bool>;  // [nodes]
+
+/// Marks the nodes of `body` whose cell was born at step `larva_steps` or later; Body::cell says
+/// which cell of `embryo` a node is.
+Newborn newborn_nodes(const core::Body& body, const core::Embryo& embryo, int larva_steps);
+
+/// Cells as disks, blue if born before step `larva_steps`, else red, and their links (figure 4,
+/// upper rows).
+Panel embryo_panel(const core::Embryo& embryo, int larva_steps);
+
+/// A body at rest: each cell's share of its triangles in blue or red, springs, outline, nodes
+/// (figures 4, 5). `direction`: an arrow where it moved to; ground: a line below its lowest node.
+Panel body_panel(const core::Body& body, const Newborn& newborn,
+                 std::optional<Point> direction = std::nullopt, bool ground = false);
+
+/// A body in motion (figures 3, 6): its nodes at `x`, `y`, every triangle coloured by S/S0.
+Panel motion_panel(const core::Body& body, std::span<const double> x, std::span<const double> y,
+                   bool ground = false);
+
+/// A body with the phase shift of every cell in colour (figure 9).
+Panel phase_panel(const core::Body& body);
+
+}  // namespace metamorph::evolve

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "evolve/view/panel.h"
+
+namespace metamorph::evolve {
+
+/// What the colours mean, at the foot of a sheet.
+enum class Legend { none, birth, strain, phase };
+
+/// Panels in rows and columns, all to one scale, with a heading, a scale bar and a legend. A row
+/// may be shorter than others, and a panel with an empty box stays blank.
+struct Sheet {
+  std::string heading;
+  std::string remark;  ///< below the heading, smaller
+  Legend legend = Legend::none;
+  std::vector<std::vector<Panel>> rows;
+  int line_after_column = -1;  ///< a dashed line behind this column (figure 4); -1: none
+  double width = 1000;         ///< layout pixels the sheet should fill
+  double max_scale = 26;       ///< layout pixels per d, at most
+};
+
+/// Writes the sheet as .svg, .png or .pdf, by the ending of `file`. The same sheet gives the same
+/// bytes of SVG. Throws std::runtime_error if the file cannot be written.
+void write_sheet(const Sheet& sheet, const std::string& file);
+
+}  // namespace metamorph::evolve
