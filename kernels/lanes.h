@@ -113,8 +113,9 @@ inline Lanes<T> fma(Lanes<T> a, Lanes<T> b, Lanes<T> c) {
 template <class T>
 inline Lanes<T> sqrt(Lanes<T> a) {
 #if defined(__AVX512F__)
-  if constexpr (sizeof(T) == 4) return Lanes<T>(_mm512_sqrt_ps(a.v));
-  if constexpr (sizeof(T) == 8) return Lanes<T>(_mm512_sqrt_pd(a.v));
+  // The masked forms, all lanes on: GCC 12 warns of its own unmasked ones (an uninitialised source).
+  if constexpr (sizeof(T) == 4) return Lanes<T>(_mm512_maskz_sqrt_ps(__mmask16(-1), a.v));
+  if constexpr (sizeof(T) == 8) return Lanes<T>(_mm512_maskz_sqrt_pd(__mmask8(-1), a.v));
 #elif defined(__AVX2__) && defined(__FMA__)
   if constexpr (sizeof(T) == 4) return Lanes<T>(_mm256_sqrt_ps(a.v));
   if constexpr (sizeof(T) == 8) return Lanes<T>(_mm256_sqrt_pd(a.v));
