@@ -119,9 +119,6 @@ class Checker {
       if (!std::isfinite(body_.rest_length[i])) {
         fault(Status::bad_input, element("rest_length", i), text(body_.rest_length[i]),
               "a finite number");
-      } else if (body_.rest_length[i] < smallest_length) {
-        fault(Status::bad_geometry, element("rest_length", i), text(body_.rest_length[i]),
-              "at least " + text(smallest_length));
       }
     }
     for (std::size_t i = 0; i < body_.rest_area.size(); ++i) {
@@ -217,6 +214,13 @@ class Checker {
 
   void check_geometry() {
     check_coincident();
+    for (std::size_t i = 0; i < body_.springs.size(); ++i) {
+      const double rest = body_.rest_length[i];
+      if (rest < smallest_length && rest != length(body_, body_.springs[i])) {
+        fault(Status::bad_geometry, element("rest_length", i), text(rest),
+              "at least " + text(smallest_length));
+      }
+    }
     for (std::size_t t = 0; t < body_.triangles.size(); ++t) {
       const double area = signed_area(body_, body_.triangles[t]);
       if (!(area > 0)) {

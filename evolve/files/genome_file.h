@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "evolve/files/output_file.h"
+#include "evolve/genetics/genome.h"
+
+namespace metamorph::evolve {
+
+inline constexpr std::string_view genome_format = "metamorph-genome/1";
+inline constexpr double largest_weight = 1000;  ///< in a file; evolution stays within +-8
+
+/// Reads a genome file (see README, Files): `nodes` [{"id", "kind"}] and `links` [{"innovation",
+/// "from", "to", "weight"}], in any order. The genome is sound: check() finds nothing. Throws
+/// InputError with all faults.
+Genome read_genome(const std::filesystem::path& file);
+
+/// The same from text; `source` names it in faults.
+Genome parse_genome(std::string_view text, const std::string& source);
+
+/// The text of a genome file; parse_genome gives back the same genome.
+std::string genome_text(const Genome& genome);
+
+void write_genome(const std::filesystem::path& file, const Genome& genome, Overwrite overwrite);
+
+}  // namespace metamorph::evolve
