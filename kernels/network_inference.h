@@ -39,12 +39,30 @@ inline void infer_network(const NetworkView& network, int cells, T* value) {
     T* const block = value + network_value_index(slots, 0, start);
     for (int n = 0; n < network.nodes; ++n) {
       T sum[inference_lanes] = {};
-      for (int l = network.first_link[n]; l < network.first_link[n + 1]; ++l) {
-        const T weight = static_cast<T>(network.weight[l]);
-        const T* const from = block + network.source[l] * inference_lanes;
+      // Four links at a time, so that the sum is fetched and stored less often; in the same order.
+      int l = network.first_link[n];
+      const int end = network.first_link[n + 1];
+      const auto weight = [&](int link) { return static_cast<T>(network.weight[link]); };
+      const auto from = [&](int link) { return block + network.source[link] * inference_lanes; };
+      for (; l + 4 <= end; l += 4) {
+        const T w0 = weight(l), w1 = weight(l + 1), w2 = weight(l + 2), w3 = weight(l + 3);
+        const T *const v0 = from(l), *const v1 = from(l + 1), *const v2 = from(l + 2),
+                       *const v3 = from(l + 3);
+#pragma omp simd
+        for (int lane = 0; lane < inference_lanes; ++lane) {
+          T s = sum[lane];
+          s = std::fma(w0, v0[lane], s);
+          s = std::fma(w1, v1[lane], s);
+          s = std::fma(w2, v2[lane], s);
+          sum[lane] = std::fma(w3, v3[lane], s);
+        }
+      }
+      for (; l < end; ++l) {
+        const T w = weight(l);
+        const T* const v = from(l);
 #pragma omp simd
         for (int lane = 0; lane < inference_lanes; ++lane)
-          sum[lane] = std::fma(weight, from[lane], sum[lane]);
+          sum[lane] = std::fma(w, v[lane], sum[lane]);
       }
       T* const to = block + (network.inputs + n) * inference_lanes;
 #pragma omp simd
