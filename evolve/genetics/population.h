@@ -46,6 +46,7 @@ struct Individual {
   std::int64_t id = 0;  ///< counts individuals ever bred in the run
   std::int64_t parent_a = -1, parent_b = -1;
   int species = -1;  ///< id of the species it was placed in
+  bool operator==(const Individual&) const = default;
 };
 
 struct Species {
@@ -55,6 +56,7 @@ struct Species {
   double best_ever = -1;  ///< highest fitness recorded
   int stagnant = 0;       ///< generations without a new best
   int size = 0;           ///< members in the present generation
+  bool operator==(const Species&) const = default;
 };
 
 /// Everything that decides how a run goes on: plain data, so that a checkpoint holds all of it.
@@ -69,6 +71,7 @@ struct PopulationState {
   int next_innovation = 0;
   int next_node = 0;
   double compatibility_threshold = 0;
+  bool operator==(const PopulationState&) const = default;
 };
 
 /// Generation 0: the seed topology with random weights, already placed in species.

@@ -15,7 +15,7 @@ using core::Purpose;
 using core::RandomStream;
 
 std::vector<int> apportion(std::span<const double> shares, int seats) {
-  // Relative to the largest share, so that no sum overflows.
+  // Relative to the largest share: of any size, without overflow.
   const double largest = *std::max_element(shares.begin(), shares.end());
   std::vector<double> quota(shares.size(), 1.0);
   if (largest > 0) {
@@ -51,6 +51,8 @@ std::vector<SpeciesPlan> plan_reproduction(const PopulationState& state,
     if (champion_fitness(s) > champion_fitness(best)) best = s;
   }
 
+  // Relative to the best fitness, so that no sum overflows.
+  const double unit = std::max(champion_fitness(best), settings.fitness_floor);
   std::vector<double> shares(count, 0.0);
   for (std::size_t s = 0; s < count; ++s) {
     const Species& species = state.species[s];
@@ -62,7 +64,7 @@ std::vector<SpeciesPlan> plan_reproduction(const PopulationState& state,
     for (const int member : ranked[s]) {
       const double own =
           std::max(fitness[static_cast<std::size_t>(member)], settings.fitness_floor);
-      shares[s] += factor * own / size;
+      shares[s] += factor * (own / unit) / size;
     }
   }
 

@@ -41,6 +41,7 @@ struct ArchiveEntry {
   int generation = 0;
   double novelty = 0;
   std::vector<double> behaviour;  ///< [2 * trials]
+  bool operator==(const ArchiveEntry&) const = default;
 };
 
 /// What a search remembers between generations: plain data, part of the checkpoint.
@@ -49,6 +50,7 @@ struct SearchState {
   double archive_threshold = 0;
   int added_in_a_row = 0;
   int idle_generations = 0;
+  bool operator==(const SearchState&) const = default;
 };
 
 SearchState initial_state(const SearchSettings& settings);
