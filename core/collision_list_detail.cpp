@@ -1,7 +1,9 @@
 #include "core/collision_list_detail.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 namespace metamorph::core {
 
@@ -15,44 +17,52 @@ template <class T>
 void CollisionList<T>::reset(const Body& body, const Scene& scene,
                              std::span<const OutlineNode> nodes,
                              std::span<const std::array<std::uint32_t, 2>> edges) {
+  constexpr auto width = static_cast<std::size_t>(kernels::Lanes<T>::width);
   body_ = &body;
   gap_ = static_cast<T>(scene.collision_gap);
   skin_ = static_cast<T>(skin);
   valid_ = false;
   nodes_ = nodes;
-  reference_.resize(nodes.size());
+  groups_ = static_cast<int>((nodes.size() + width - 1) / width);
+  const auto groups = static_cast<std::size_t>(groups_);
+  x_.resize(groups * width);
+  y_.resize(groups * width);
   pairs_.clear();
   pairs_.reserve(nodes.size() * edges.size());
 
-  std::vector<Index> node_of(nodes.size());
-  for (const OutlineNode& node : nodes) node_of[node.lane] = node.node;  // outline lanes come first
+  // Outline nodes fill the first lanes, in order.
   edges_.clear();
-  for (const auto& edge : edges)
-    edges_.push_back({edge[0], edge[1], node_of[edge[0]], node_of[edge[1]]});
+  for (const auto& [first, second] : edges) {
+    edges_.push_back({first, second, nodes[first].node, nodes[second].node});
+  }
 
-  // An outline node's edges, and theirs: two hops.
   std::vector<std::vector<std::size_t>> incident(nodes.size());
   for (std::size_t e = 0; e < edges.size(); ++e) {
     incident[edges[e][0]].push_back(e);
     incident[edges[e][1]].push_back(e);
   }
-  near_begin_.assign(1, 0);
-  near_edge_.clear();
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    for (std::size_t e : incident[n]) {
-      near_edge_.push_back(e);
-      const std::size_t other = edges[e][0] == n ? edges[e][1] : edges[e][0];
-      near_edge_.insert(near_edge_.end(), incident[other].begin(), incident[other].end());
+  allowed_.assign(edges.size() * groups, 0);
+  const auto bit = [&](std::size_t edge,
+                       std::size_t node) -> std::pair<std::uint32_t&, std::uint32_t> {
+    return {allowed_[edge * groups + node / width], 1u << (node % width)};
+  };
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      const auto [word, lane] = bit(e, n);
+      word |= lane;
     }
-    near_begin_.push_back(static_cast<int>(near_edge_.size()));
   }
-}
-
-template <class T>
-bool CollisionList<T>::excluded(std::size_t node, std::size_t edge) const {
-  const auto begin = near_edge_.begin() + near_begin_[node];
-  const auto end = near_edge_.begin() + near_begin_[node + 1];
-  return std::find(begin, end, edge) != end;
+  const auto forbid = [&](std::size_t edge, std::size_t node) {
+    const auto [word, lane] = bit(edge, node);
+    word &= ~lane;
+  };
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    for (const std::size_t first : incident[n]) {
+      forbid(first, n);
+      const std::size_t other = edges[first][0] == n ? edges[first][1] : edges[first][0];
+      for (const std::size_t second : incident[other]) forbid(second, n);
+    }
+  }
 }
 
 template <class T>
@@ -60,40 +70,44 @@ bool CollisionList<T>::stale(const kernels::NodeRecord<T>* records) const {
   if (!valid_) return true;
   if (nodes_.empty()) return false;
   // Motion that all nodes share brings none closer: take the first node's as the common part.
-  const T shift_x = records[nodes_[0].lane].x - reference_[0][0];
-  const T shift_y = records[nodes_[0].lane].y - reference_[0][1];
-  T farthest2 = 0;
-  for (std::size_t n = 0; n < nodes_.size(); ++n) {
-    const T dx = records[n].x - reference_[n][0] - shift_x;
-    const T dy = records[n].y - reference_[n][1] - shift_y;
-    farthest2 = std::max(farthest2, std::fma(dx, dx, dy * dy));
-  }
-  return !(farthest2 < skin_ * skin_ / 4);
+  const T moved2 = kernels::farthest_move2(records, x_.data(), y_.data(), groups_,
+                                           records[0].x - x_[0], records[0].y - y_[0]);
+  return !(moved2 < skin_ * skin_ / 4);
 }
 
 template <class T>
 void CollisionList<T>::renew(const kernels::NodeRecord<T>* records) {
+  constexpr auto width = static_cast<std::size_t>(kernels::Lanes<T>::width);
+  const auto groups = static_cast<std::size_t>(groups_);
   pairs_.clear();
-  for (std::size_t n = 0; n < nodes_.size(); ++n) reference_[n] = {records[n].x, records[n].y};
+  for (std::size_t n = 0; n < groups * width; ++n) {
+    x_[n] = records[n].x;
+    y_[n] = records[n].y;
+  }
   const T reach = gap_ + skin_ * T(1.001);  // room for rounding
-  for (std::size_t n = 0; n < nodes_.size(); ++n) {
-    const kernels::NodeRecord<T>& p = records[n];
-    for (std::size_t e = 0; e < edges_.size(); ++e) {
-      const Edge& edge = edges_[e];
-      const kernels::NodeRecord<T>&a = records[edge.first], &b = records[edge.second];
-      const auto near = kernels::nearest_on_segment(p.x, p.y, a.x, a.y, b.x, b.y);
-      if (!(near.distance2 < reach * reach) || excluded(n, e)) continue;
-      const auto i = static_cast<std::size_t>(nodes_[n].node);
-      const auto j = static_cast<std::size_t>(edge.a), k = static_cast<std::size_t>(edge.b);
-      const double rest =
-          std::sqrt(kernels::nearest_on_segment(body_->x[i], body_->y[i], body_->x[j], body_->y[j],
-                                                body_->x[k], body_->y[k])
-                        .distance2);
-      pairs_.push_back({static_cast<std::uint32_t>(n), edge.first, edge.second,
-                        std::min(gap_, static_cast<T>(rest))});
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const Edge& edge = edges_[e];
+    const auto a = edge.first, b = edge.second;
+    for (std::size_t g = 0; g < groups; ++g) {
+      std::uint32_t near = kernels::near_segment(x_.data() + g * width, y_.data() + g * width,
+                                                 x_[a], y_[a], x_[b], y_[b], reach) &
+                           allowed_[e * groups + g];
+      for (; near != 0; near &= near - 1) {
+        add(g * width + static_cast<std::size_t>(std::countr_zero(near)), edge);
+      }
     }
   }
   valid_ = true;
+}
+
+template <class T>
+void CollisionList<T>::add(std::size_t node, const Edge& edge) {
+  const auto at = [](Index i) { return static_cast<std::size_t>(i); };
+  const std::size_t i = at(nodes_[node].node), j = at(edge.a), k = at(edge.b);
+  const auto rest = kernels::nearest_on_segment(body_->x[i], body_->y[i], body_->x[j], body_->y[j],
+                                                body_->x[k], body_->y[k]);
+  pairs_.push_back({static_cast<std::uint32_t>(node), edge.first, edge.second,
+                    std::min(gap_, static_cast<T>(std::sqrt(rest.distance2)))});
 }
 
 template <class T>

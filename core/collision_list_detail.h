@@ -33,17 +33,17 @@ class CollisionList {
 
   bool stale(const kernels::NodeRecord<T>* records) const;
   void renew(const kernels::NodeRecord<T>* records);
-  bool excluded(std::size_t node, std::size_t edge) const;
+  void add(std::size_t node, const Edge& edge);
 
   const Body* body_ = nullptr;
   T gap_ = 0, skin_ = 0;
   bool valid_ = false;
+  int groups_ = 0;  ///< lane groups that hold outline nodes
   std::span<const OutlineNode> nodes_;
   std::vector<Edge> edges_;
-  std::vector<int> near_begin_;              ///< [outline nodes + 1] into near_edge_
-  std::vector<std::size_t> near_edge_;       ///< excluded edges of each node
-  std::vector<std::array<T, 2>> reference_;  ///< positions of the outline nodes at renewal
-  std::vector<kernels::CollisionPair<T>> pairs_;
+  std::vector<std::uint32_t> allowed_;  ///< [edges * groups] lanes that may collide with the edge
+  Aligned<T> x_, y_;                    ///< [groups * width] positions at renewal
+  std::vector<kernels::CollisionPair<T>> pairs_;  ///< by edge, then node
 };
 
 extern template class CollisionList<float>;

@@ -50,13 +50,6 @@ StepFunction<T> step_function(const kernels::Terms& terms) {
 }
 
 template <class T>
-double largest(const kernels::Lanes<T>& pack) {
-  T value = pack[0];
-  for (int l = 1; l < kernels::Lanes<T>::width; ++l) value = std::max(value, pack[l]);
-  return static_cast<double>(value);
-}
-
-template <class T>
 kernels::StepCoefficients<T> coefficients(const Scene& scene, Method method) {
   kernels::StepCoefficients<T> c;
   const double angle = scene.slope_degrees * 3.14159265358979323846 / 180;
@@ -135,7 +128,7 @@ bool Runner<T>::settle(const LocomotionTask& task, Outcome& outcome) {
     const auto before = extremes_.largest_speed2;
     extremes_.largest_speed2 = kernels::Lanes<T>(T(0));
     step(static_cast<std::uint64_t>(n));
-    quiet = largest(extremes_.largest_speed2) < quiet2 ? quiet + 1 : 0;
+    quiet = static_cast<double>(largest(extremes_.largest_speed2)) < quiet2 ? quiet + 1 : 0;
     extremes_.largest_speed2 = kernels::max(extremes_.largest_speed2, before);
     ++n;
     if (n % check_interval == 0) {
@@ -182,9 +175,9 @@ bool Runner<T>::actuate(const LocomotionTask& task, Outcome& outcome, int every,
 /// Looks at what the steps have seen; fills the failure's fields and returns false if it is one.
 template <class T>
 bool Runner<T>::sound(Outcome& outcome) {
-  const double speed = std::sqrt(largest(extremes_.largest_speed2));
-  const double largest_ratio = largest(extremes_.largest_ratio);
-  const double smallest_ratio = -largest(-extremes_.smallest_ratio);
+  const double speed = std::sqrt(static_cast<double>(largest(extremes_.largest_speed2)));
+  const double largest_ratio = static_cast<double>(largest(extremes_.largest_ratio));
+  const T smallest_ratio = -largest(-extremes_.smallest_ratio);
   T finite = T(0);
   for (int l = 0; l < kernels::Lanes<T>::width; ++l) finite += extremes_.not_finite[l];
   outcome.max_speed = std::max(outcome.max_speed, speed);

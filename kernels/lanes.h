@@ -94,6 +94,34 @@ inline Lanes<T> abs(Lanes<T> a) {
   return max(a, -a);
 }
 
+/// Bit l is lane l's truth.
+template <class T>
+inline std::uint32_t bits(LaneMask<T> mask) {
+#if defined(__AVX512DQ__)
+  if constexpr (sizeof(T) == 4) return _mm512_movepi32_mask(reinterpret_cast<__m512i>(mask.v));
+  if constexpr (sizeof(T) == 8) return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask.v));
+#elif defined(__AVX2__)
+  if constexpr (sizeof(T) == 4) {
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask.v)));
+  }
+  if constexpr (sizeof(T) == 8) {
+    return static_cast<std::uint32_t>(_mm256_movemask_pd(reinterpret_cast<__m256d>(mask.v)));
+  }
+#else
+  std::uint32_t result = 0;
+  for (int l = 0; l < Lanes<T>::width; ++l) result |= mask.v[l] ? 1u << l : 0u;
+  return result;
+#endif
+}
+
+/// The largest lane.
+template <class T>
+inline T largest(Lanes<T> pack) {
+  T value = pack[0];
+  for (int l = 1; l < Lanes<T>::width; ++l) value = pack[l] > value ? pack[l] : value;
+  return value;
+}
+
 /// a * b + c with one rounding.
 template <class T>
 inline Lanes<T> fma(Lanes<T> a, Lanes<T> b, Lanes<T> c) {
@@ -113,7 +141,8 @@ inline Lanes<T> fma(Lanes<T> a, Lanes<T> b, Lanes<T> c) {
 template <class T>
 inline Lanes<T> sqrt(Lanes<T> a) {
 #if defined(__AVX512F__)
-  // The masked forms, all lanes on: GCC 12 warns of its own unmasked ones (an uninitialised source).
+  // The masked forms, all lanes on: GCC 12 warns of its own unmasked ones (an uninitialised
+  // source).
   if constexpr (sizeof(T) == 4) return Lanes<T>(_mm512_maskz_sqrt_ps(__mmask16(-1), a.v));
   if constexpr (sizeof(T) == 8) return Lanes<T>(_mm512_maskz_sqrt_pd(__mmask8(-1), a.v));
 #elif defined(__AVX2__) && defined(__FMA__)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "kernels/lanes.h"
 #include "kernels/node_record.h"
 
 namespace metamorph::kernels {
@@ -28,6 +29,35 @@ inline NearestOnSegment<T> nearest_on_segment(T px, T py, T ax, T ay, T bx, T by
   share = share < T(0) ? T(0) : (share > T(1) ? T(1) : share);
   const T dx = std::fma(-share, ex, qx), dy = std::fma(-share, ey, qy);
   return {share, dx, dy, std::fma(dx, dx, dy * dy)};
+}
+
+/// Largest squared distance that the nodes of `groups` lane groups have moved from (x, y), their
+/// common motion (shift_x, shift_y) left out. Idle lanes must hold their own position in (x, y).
+template <class T>
+inline T farthest_move2(const NodeRecord<T>* records, const T* x, const T* y, int groups, T shift_x,
+                        T shift_y) {
+  Lanes<T> farthest(T(0));
+  for (int g = 0; g < groups; ++g) {
+    const int base = g * Lanes<T>::width;
+    const NodePack<T> now = load(records + base);
+    const Lanes<T> dx = now.x - Lanes<T>::load(x + base) - Lanes<T>(shift_x);
+    const Lanes<T> dy = now.y - Lanes<T>::load(y + base) - Lanes<T>(shift_y);
+    farthest = max(farthest, fma(dx, dx, dy * dy));
+  }
+  return largest(farthest);
+}
+
+/// The lanes of one group whose node lies within `reach` of segment ab, as bits. No node within
+/// reach is left out.
+template <class T>
+inline std::uint32_t near_segment(const T* x, const T* y, T ax, T ay, T bx, T by, T reach) {
+  using Pack = Lanes<T>;
+  const Pack ex(bx - ax), ey(by - ay);
+  const Pack qx = Pack::load(x) - Pack(ax), qy = Pack::load(y) - Pack(ay);
+  const Pack length2 = max(fma(ex, ex, ey * ey), Pack(T(1e-12)));
+  const Pack share = min(max(fma(qx, ex, qy * ey) / length2, Pack(T(0))), Pack(T(1)));
+  const Pack dx = fma(-share, ex, qx), dy = fma(-share, ey, qy);
+  return bits(fma(dx, dx, dy * dy) < Pack(reach * reach));
 }
 
 /// Adds the elastic penalty of every pair closer than its threshold (MODEL section 4):
