@@ -30,6 +30,23 @@ Status status_of(ref::Fault fault) {
   return Status::non_finite;
 }
 
+/// Which of several faults is told: the gravest.
+int severity(ref::Fault fault) {
+  switch (fault) {
+    case ref::Fault::none:
+      return 0;
+    case ref::Fault::speed:
+      return 1;
+    case ref::Fault::collapsed:
+      return 2;
+    case ref::Fault::inverted:
+      return 3;
+    case ref::Fault::non_finite:
+      return 4;
+  }
+  return 4;
+}
+
 /// The steps of one evaluation: counts them, looks at the state, and remembers a failure.
 class Evaluation {
  public:
@@ -47,10 +64,9 @@ class Evaluation {
     const std::int64_t steps = steps_in(scene_.run_steps);
     for (std::int64_t n = 0; n < steps; ++n) {
       system_.step(options_.method, static_cast<double>(n) * h_, h_);
-      if (!count()) return outcome_;
+      if (!count(n + 1) || (n + 1 == steps && !sound())) return outcome_;
       if ((n + 1) % options_.observe_every == 0) observe(n + 1);
     }
-    if (!look()) return outcome_;
     const std::array<double, 2> end = system_.mean_position();
     const double dx = end[0] - start[0];
     const double dy = end[1] - start[1];
@@ -71,29 +87,33 @@ class Evaluation {
     std::int64_t quiet = 0;
     while (quiet < wanted && outcome_.steps < limit) {
       system_.step(options_.method, 0, h_);
-      if (!count()) return false;
+      const bool sound = count(outcome_.steps + 1);
+      outcome_.settle_time = static_cast<double>(outcome_.steps) * h_;
+      if (!sound) return false;
       quiet = system_.max_speed() < scene_.settle_speed ? quiet + 1 : 0;
     }
     if (quiet < wanted) outcome_.status = Status::not_settled;
-    outcome_.settle_time = static_cast<double>(outcome_.steps) * h_;
     system_.set_settling(false);
     return true;
   }
 
-  bool count() {
+  /// Counts a step, the n-th of settling or of the run, and looks at the state it led to. What was
+  /// found is told every 8 steps: false if there was a fault among them.
+  bool count(std::int64_t n) {
     ++outcome_.steps;
-    return outcome_.steps % check_interval != 0 || look();
-  }
-
-  bool look() {
     const ref::Health health = system_.examine(h_);
     outcome_.min_area_ratio = std::min(outcome_.min_area_ratio, health.min_area_ratio);
     outcome_.max_speed = std::max(outcome_.max_speed, health.max_speed);
-    if (health.fault == ref::Fault::none) return true;
-    outcome_.status = status_of(health.fault);
+    if (severity(health.fault) >= severity(worst_.fault)) worst_ = health;
+    return n % check_interval != 0 || sound();
+  }
+
+  bool sound() {
+    if (worst_.fault == ref::Fault::none) return true;
+    outcome_.status = status_of(worst_.fault);
     outcome_.failed_step = outcome_.steps;
-    outcome_.failed_index = health.index;
-    outcome_.failed_value = health.value;
+    outcome_.failed_index = worst_.index;
+    outcome_.failed_value = worst_.value;
     return false;
   }
 
@@ -108,16 +128,20 @@ class Evaluation {
   const ReferenceOptions& options_;
   double h_;
   Outcome outcome_;
+  ref::Health worst_;  // of the steps so far
 };
 
 }  // namespace
 
 Outcome simulate_reference(const Body& body, const Scene& scene, const ReferenceOptions& options) {
-  const std::vector<BodyFault> faults = check(body);  // finds an empty body too
-  if (!faults.empty()) {
-    Outcome outcome = describe(body);
-    outcome.status = faults.front().status;
-    return outcome;
+  Outcome refused = describe(body);
+  if (body.node_count() == 0) {
+    refused.status = Status::empty;
+    return refused;
+  }
+  if (const std::vector<BodyFault> faults = check(body); !faults.empty()) {
+    refused.status = faults.front().status;
+    return refused;
   }
   return Evaluation(body, scene, options).run();
 }

@@ -34,6 +34,18 @@ inline void disturb(core::ReferenceSystem& system, double shift, double speed, s
   }
 }
 
+/// `scene` with `duration` time units of actuation.
+inline core::Scene lasting(core::Scene scene, double duration) {
+  scene.run_steps = static_cast<int>(std::lround(duration / core::paper_step));
+  return scene;
+}
+
+inline double mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
 /// Root of the mean squared distance of two sets of points.
 inline double rms_distance(const std::vector<double>& x1, const std::vector<double>& y1,
                            const std::vector<double>& x2, const std::vector<double>& y2) {

@@ -39,6 +39,51 @@ inline Simulator reference_simulator() {
           }};
 }
 
-inline std::vector<Simulator> simulators() { return {reference_simulator()}; }
+inline Simulator fast_simulator(const std::string& name, double round_off,
+                                core::Precision precision) {
+  return {name, round_off,
+          [precision](const core::Body& body, const core::Scene& scene, int every,
+                      const Observer& observe) {
+            core::LocomotionOptions options;
+            options.precision = precision;
+            options.threads = 1;
+            return core::simulate_observed({&body, &scene}, options, every, observe);
+          }};
+}
+
+inline Simulator float64_simulator() {
+  return fast_simulator("float64", round_off_64, core::Precision::float64);
+}
+
+inline Simulator float32_simulator() {
+  return fast_simulator("float32", round_off_32, core::Precision::float32);
+}
+
+inline std::vector<Simulator> simulators() {
+  return {reference_simulator(), float64_simulator(), float32_simulator()};
+}
+
+/// Every frame of an evaluation, copied.
+struct Film {
+  struct Picture {
+    double time = 0;
+    std::vector<double> x, y, vx, vy;
+  };
+  core::Outcome outcome;
+  std::vector<Picture> pictures;
+};
+
+inline Film film(const Simulator& simulator, const core::Body& body, const core::Scene& scene,
+                 int every) {
+  Film result;
+  result.outcome = simulator.run(body, scene, every, [&](const core::Frame& frame) {
+    result.pictures.push_back({frame.time,
+                               {frame.x.begin(), frame.x.end()},
+                               {frame.y.begin(), frame.y.end()},
+                               {frame.vx.begin(), frame.vx.end()},
+                               {frame.vy.begin(), frame.vy.end()}});
+  });
+  return result;
+}
 
 }  // namespace metamorph::tests
