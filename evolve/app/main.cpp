@@ -16,7 +16,11 @@ constexpr int exit_input = 2;    ///< what was asked for cannot be done
 using AddCommand = void (*)(CLI::App&);
 
 /// In the order of --help.
-const std::vector<AddCommand> add_commands = {};
+const std::vector<AddCommand> add_commands = {
+    add_evolve_command,
+    add_info_command,
+    add_export_command,
+};
 
 /// The line of a command-line fault: which command, what, and where to read on.
 std::string fault_line(const CLI::App& app, const CLI::ParseError& error) {

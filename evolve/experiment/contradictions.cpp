@@ -15,8 +15,8 @@ void at_most(std::vector<Contradiction>& found, const std::string& low_key, Numb
 
 void check_trials(const Experiment& e, std::vector<Contradiction>& found) {
   if (e.trials.empty() || e.trials.size() > 2) {
-    found.push_back({"trials", fmt::format("one or two [[trials]] tables, there are {}",
-                                           e.trials.size())});
+    found.push_back(
+        {"trials", fmt::format("one or two [[trials]] tables, there are {}", e.trials.size())});
   }
   std::set<std::string> names;
   for (const Trial& trial : e.trials) {

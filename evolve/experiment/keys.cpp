@@ -118,9 +118,9 @@ Section neat_section(Experiment& e) {
            {"remove_link", &n.remove_link, 0, 1e6, "rate in the mutation roulette"},
            {"severe", &n.severe, 0, 1, "share of weight mutations that redraw all weights"},
            {"weight_change", &n.weight_change, 0, 1e6, "largest change of a weight"},
-           {"weight_limit", &n.weight_limit, 1e-6, 1e6, "largest absolute weight"},
+           {"weight_limit", &n.weight_limit, 1e-6, 1000, "largest absolute weight"},
            {"fitness_floor", &n.fitness_floor, 0, 1e6, "least fitness before sharing"},
-       {"clone_tries", &n.clone_tries, 0, 1e6, "times an identical child is bred again"}}};
+           {"clone_tries", &n.clone_tries, 0, 1e6, "times an identical child is bred again"}}};
 }
 
 template <class Number>

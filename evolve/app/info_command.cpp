@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "core/status.h"
+#include "evolve/app/commands.h"
+#include "evolve/app/text.h"
+#include "evolve/run/run_reader.h"
+
+namespace metamorph::evolve {
+namespace {
+
+void print_json(const RunReader& run, const Experiment& experiment) {
+  nlohmann::ordered_json json;
+  json["run"] = run.file().string();
+  json["experiment"] = experiment.name;
+  json["seed"] = experiment.seed;
+  json["generations"] = run.generations_done();
+  json["generations_planned"] = experiment.generations;
+  json["population"] = experiment.neat.population;
+  if (run.generations_done() > 0) {
+    const Champion best = run.best();
+    auto& entry = json["best"];
+    entry["generation"] = best.generation;
+    entry["individual"] = best.individual;
+    entry["eq6"] = best.eq6;
+    for (std::size_t t = 0; t < experiment.trials.size(); ++t) {
+      auto& trial = entry["trials"].emplace_back();
+      trial["name"] = experiment.trials[t].name;
+      trial["status"] = best.statuses[t];
+      trial["distance"] = best.distances[t];
+    }
+  }
+  json["status"] = run.status_counts();
+  for (const auto& [phase, seconds] : run.phase_seconds()) json["seconds"][phase] = seconds;
+  for (const auto& [key, value] : run.last_session()) json["session"][key] = value;
+  fmt::print("{}\n", json.dump());
+}
+
+void print_text(const RunReader& run, const Experiment& experiment) {
+  const int done = run.generations_done();
+  fmt::print("{}\n", run.file().string());
+  fmt::print("experiment   {}, seed {}\n", experiment.name, experiment.seed);
+  for (const Trial& trial : experiment.trials) {
+    fmt::print("trial        {}: {} at step {}\n", trial.name, trial.scene, trial.stage);
+  }
+  fmt::print("generations  {} of {}, {} individuals each\n", done, experiment.generations,
+             experiment.neat.population);
+  if (done > 0) {
+    const Champion best = run.best();
+    fmt::print("best         {:.4f} d (eq 6) in generation {}:", best.eq6, best.generation);
+    for (std::size_t t = 0; t < experiment.trials.size(); ++t) {
+      fmt::print("{} {} {:.4f} d", t == 0 ? "" : ",", experiment.trials[t].name, best.distances[t]);
+    }
+    fmt::print("\n");
+    std::int64_t all = 0;
+    const auto counts = run.status_counts();
+    for (const auto& [status, count] : counts) all += count;
+    fmt::print("evaluations  {}", all);
+    for (const core::Status status : core::all_statuses) {
+      const auto found = counts.find(std::string(core::name(status)));
+      if (found != counts.end()) {
+        fmt::print(", {} {} ({:.1f} %)", found->first, found->second,
+                   100.0 * static_cast<double>(found->second) / static_cast<double>(all));
+      }
+    }
+    double total = 0;
+    for (const auto& [phase, seconds] : run.phase_seconds()) total += seconds;
+    fmt::print("\ntime         {}", duration_text(total));
+    for (const auto& [phase, seconds] : run.phase_seconds()) {
+      fmt::print(", {} {:.1f} %", phase, 100 * seconds / total);
+    }
+    fmt::print("\n");
+  }
+  for (const auto& [key, value] : run.last_session()) fmt::print("{:<12} {}\n", key, value);
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("info", "Says what is in a run");
+  struct Arguments {
+    std::string run;
+    bool json = false;
+  };
+  auto given = std::make_shared<Arguments>();
+  command->add_option("RUN", given->run, "directory of a run, or its run.db")->required();
+  command->add_flag("--json", given->json, "one JSON object instead");
+  command->callback([given] {
+    const RunReader run(given->run);
+    (given->json ? print_json : print_text)(run, run.experiment());
+  });
+}
+
+}  // namespace metamorph::evolve

@@ -1,0 +1,42 @@
+#include "evolve/run/generation.h"
+
+#include <numeric>
+
+namespace metamorph::evolve {
+
+double PhaseSeconds::total() const {
+  const auto all = values();
+  return std::accumulate(all.begin(), all.end(), 0.0);
+}
+
+PhaseSeconds& PhaseSeconds::operator+=(const PhaseSeconds& other) {
+  evaluation.develop += other.evaluation.develop;
+  evaluation.extract += other.evaluation.extract;
+  evaluation.locomotion += other.evaluation.locomotion;
+  search += other.search;
+  breeding += other.breeding;
+  record += other.record;
+  return *this;
+}
+
+std::array<int, core::status_count> count_statuses(const GenerationResult& result, int trial) {
+  std::array<int, core::status_count> counts{};
+  for (const Evaluated& individual : result.individuals) {
+    const Evaluation& e = individual.evaluation;
+    for (std::size_t t = 0; t < e.trials.size(); ++t) {
+      if (e.evaluated[t] == 0 || (trial >= 0 && t != static_cast<std::size_t>(trial))) continue;
+      ++counts[static_cast<std::size_t>(e.trials[t].status)];
+    }
+  }
+  return counts;
+}
+
+std::size_t best_position(const std::vector<double>& eq6, const std::vector<double>& scores) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < eq6.size(); ++i) {
+    if (eq6[i] > eq6[best] || (eq6[i] == eq6[best] && scores[i] > scores[best])) best = i;
+  }
+  return best;
+}
+
+}  // namespace metamorph::evolve

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "evolve/run/evaluate.h"
+
+namespace metamorph::evolve {
+
+/// Wall-clock seconds by phase.
+struct PhaseSeconds {
+  EvaluationSeconds evaluation;
+  double search = 0, breeding = 0, record = 0;
+
+  static constexpr std::array<std::string_view, 6> names = {"develop", "extract",  "locomotion",
+                                                            "search",  "breeding", "record"};
+  std::array<double, 6> values() const {
+    return {
+        evaluation.develop, evaluation.extract, evaluation.locomotion, search, breeding, record};
+  }
+  double total() const;
+  PhaseSeconds& operator+=(const PhaseSeconds& other);
+};
+
+/// What came of one generation: everything the record and the reporters need beside the population.
+struct GenerationResult {
+  int generation = 0;
+  std::vector<Evaluated> individuals;  ///< [population]
+  std::vector<double> scores;          ///< [population] by the search's rule
+  std::vector<double> eq6;             ///< [population] geometric mean of the distances
+  std::size_t champion = 0;            ///< position of the best by eq 6
+  std::size_t archive_before = 0;      ///< entries of the archive before this generation
+};
+
+/// Evaluations by status, for one trial or for all (trial -1); trials that were not run are left
+/// out.
+std::array<int, core::status_count> count_statuses(const GenerationResult& result, int trial = -1);
+
+/// Position of the highest eq 6; ties go to the higher score, then to the lower position.
+std::size_t best_position(const std::vector<double>& eq6, const std::vector<double>& scores);
+
+}  // namespace metamorph::evolve

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "evolve/experiment/experiment.h"
+#include "evolve/run/checkpoint.h"
+#include "evolve/run/generation.h"
+#include "evolve/run/sqlite.h"
+
+namespace metamorph::evolve {
+
+/// A lock on a directory, held by one process and freed when it ends, however it ends.
+class DirectoryLock {
+ public:
+  explicit DirectoryLock(const std::filesystem::path& directory);  ///< throws InputError if held
+  ~DirectoryLock();
+  DirectoryLock(const DirectoryLock&) = delete;
+  DirectoryLock& operator=(const DirectoryLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+/// The record of a run being written: run.db in the run's directory (record_schema.h). One
+/// transaction per generation. All failures (no room, no rights, damage) throw InputError.
+class Record {
+ public:
+  /// Makes the directory and an empty record in it. Refuses a directory that is not empty.
+  Record(const std::filesystem::path& directory, const Experiment& experiment, int threads);
+
+  /// Opens a run to go on with it, after checking that it is whole.
+  static std::unique_ptr<Record> resume(const std::filesystem::path& directory, int threads);
+
+  ~Record();
+  Record(const Record&) = delete;
+  Record& operator=(const Record&) = delete;
+
+  /// The experiment as recorded.
+  Experiment experiment();
+  /// Records that the run is to have another number of generations.
+  void change_generations(int generations);
+  /// Where the run goes on: the checkpoint with its archive, or the first generation if none has
+  /// been recorded yet.
+  Checkpoint checkpoint();
+
+  /// Writes one generation and the checkpoint after it, as one transaction. `population` is the
+  /// one the results belong to.
+  void write(const PopulationState& population, const GenerationResult& result,
+             const PhaseSeconds& seconds, const Checkpoint& next);
+
+  const std::filesystem::path& directory() const { return directory_; }
+
+ private:
+  explicit Record(const std::filesystem::path& directory);  // of an existing run
+  void start_session(int threads);
+  void write_individuals(const PopulationState& population, const GenerationResult& result);
+  void write_summary(const PopulationState& population, const GenerationResult& result,
+                     const Checkpoint& next);
+  void write_species(const PopulationState& population, const GenerationResult& result);
+  void write_last_duration();
+  void write_archive(const GenerationResult& result, const SearchState& search);
+
+  std::filesystem::path directory_;
+  std::unique_ptr<DirectoryLock> lock_;
+  std::unique_ptr<Database> database_;
+  int last_generation_ = -1;  ///< whose writing took last_duration_ seconds, not yet recorded
+  double last_duration_ = 0;
+};
+
+}  // namespace metamorph::evolve

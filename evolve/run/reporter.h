@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+
+#include "evolve/experiment/experiment.h"
+#include "evolve/run/checkpoint.h"
+#include "evolve/run/generation.h"
+
+namespace metamorph::evolve {
+
+/// A run as it begins or goes on.
+struct RunStart {
+  const Experiment& experiment;
+  const std::filesystem::path& directory;
+  int first_generation = 0;  ///< above 0: resumed
+};
+
+/// One generation, already safe in the record.
+struct GenerationReport {
+  const Experiment& experiment;
+  const PopulationState& population;  ///< the one that was evaluated
+  const GenerationResult& result;
+  const BestEver& best;   ///< by eq 6, up to now
+  bool improved = false;  ///< `best` is of this generation
+  int evaluations = 0;    ///< bodies and scenes, over the population
+  double seconds = 0;
+};
+
+/// How a run ended.
+struct RunSummary {
+  int generations_done = 0;  ///< in the record, earlier sessions included
+  bool interrupted = false;  ///< stopped before the last generation
+  BestEver best;
+  PhaseSeconds seconds;                            ///< of this session
+  std::array<int, core::status_count> statuses{};  ///< of this session
+};
+
+/// Somebody who wants to know how a run goes. All calls come from the thread that runs it. What a
+/// reporter does changes nothing in the run.
+class Reporter {
+ public:
+  virtual ~Reporter() = default;
+  virtual void started(const RunStart&) {}
+  virtual void generation_done(const GenerationReport&) {}
+  virtual void finished(const RunSummary&) {}
+};
+
+}  // namespace metamorph::evolve

@@ -1,0 +1,156 @@
+#include "evolve/run/run_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "evolve/experiment/experiment_file.h"
+#include "evolve/files/genome_file.h"
+#include "evolve/files/input_error.h"
+#include "evolve/run/record_schema.h"
+#include "evolve/run/sqlite.h"
+
+namespace metamorph::evolve {
+namespace {
+
+std::filesystem::path record_of(const std::filesystem::path& run) {
+  return std::filesystem::is_directory(run) ? run / record_file : run;
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"') result += '"';
+    result += c;
+  }
+  return result + '"';
+}
+
+}  // namespace
+
+RunReader::RunReader(const std::filesystem::path& run)
+    : file_(record_of(run)), database_(std::make_unique<Database>(file_, Database::Mode::read)) {
+  Statement known(*database_, "SELECT count(*) FROM sqlite_master WHERE name = 'run'");
+  known.step();
+  std::string format;
+  if (known.integer(0) > 0) {
+    Statement select(*database_, "SELECT value FROM run WHERE key = 'format'");
+    if (select.step()) format = select.text(0);
+  }
+  if (format != record_format) {
+    throw InputError(fmt::format("{}: format = \"{}\": expected \"{}\", the record of a run",
+                                 file_.string(), format, record_format));
+  }
+}
+
+RunReader::~RunReader() = default;
+
+Experiment RunReader::experiment() const {
+  Statement select(*database_, "SELECT value FROM run WHERE key = 'configuration'");
+  if (!select.step()) {
+    throw InputError(fmt::format("{}: holds no configuration", file_.string()));
+  }
+  return parse_experiment(select.text(0), file_.string() + " (configuration)");
+}
+
+int RunReader::generations_done() const {
+  Statement select(*database_, "SELECT count(*) FROM generations");
+  select.step();
+  return static_cast<int>(select.integer(0));
+}
+
+Champion RunReader::champion(int generation) const {
+  return read_champion(fmt::format("WHERE generation = {}", generation));
+}
+
+Champion RunReader::best() const { return read_champion("ORDER BY eq6 DESC, generation LIMIT 1"); }
+
+Champion RunReader::read_champion(const std::string& sql_end) const {
+  Statement select(
+      *database_,
+      "SELECT generation, individual, eq6, score, genome, position FROM champions " + sql_end);
+  if (!select.step()) {
+    throw InputError(fmt::format("{}: no such champion: expected a generation below {}",
+                                 file_.string(), generations_done()));
+  }
+  Champion champion;
+  champion.generation = static_cast<int>(select.integer(0));
+  champion.individual = select.integer(1);
+  champion.eq6 = select.real(2);
+  champion.score = select.real(3);
+  champion.genome = parse_genome(
+      select.text(4), fmt::format("{} (champion {})", file_.string(), champion.generation));
+  Statement trials(*database_,
+                   "SELECT coalesce(o.distance, 0), coalesce(o.status, '') FROM trials t LEFT JOIN "
+                   "outcomes o ON o.trial = t.trial AND o.generation = ? AND o.position = ? "
+                   "ORDER BY t.trial");
+  trials.bind(champion.generation).bind(select.integer(5));
+  while (trials.step()) {
+    champion.distances.push_back(trials.real(0));
+    champion.statuses.push_back(trials.text(1));
+  }
+  return champion;
+}
+
+std::map<std::string, std::int64_t> RunReader::status_counts() const {
+  Statement select(*database_, "SELECT status, sum(count) FROM status_counts GROUP BY status");
+  std::map<std::string, std::int64_t> counts;
+  while (select.step()) counts[select.text(0)] = select.integer(1);
+  return counts;
+}
+
+std::vector<std::pair<std::string, double>> RunReader::phase_seconds() const {
+  Statement select(*database_,
+                   "SELECT phase, sum(seconds) FROM timings GROUP BY phase ORDER BY 2 DESC");
+  std::vector<std::pair<std::string, double>> phases;
+  while (select.step()) phases.emplace_back(select.text(0), select.real(1));
+  return phases;
+}
+
+std::vector<std::pair<std::string, std::string>> RunReader::last_session() const {
+  Statement select(*database_,
+                   "SELECT key, value FROM sessions WHERE session = (SELECT max(session) FROM "
+                   "sessions) ORDER BY key");
+  std::vector<std::pair<std::string, std::string>> facts;
+  while (select.step()) facts.emplace_back(select.text(0), select.text(1));
+  return facts;
+}
+
+std::vector<std::string> RunReader::tables() const {
+  Statement select(*database_,
+                   "SELECT name FROM sqlite_master WHERE type IN ('table', 'view') AND name != "
+                   "'checkpoint' ORDER BY name");
+  std::vector<std::string> names;
+  while (select.step()) names.push_back(select.text(0));
+  return names;
+}
+
+void RunReader::write_csv(const std::string& table,
+                          const std::function<void(std::string_view)>& write) const {
+  const std::vector<std::string> known = tables();
+  if (std::find(known.begin(), known.end(), table) == known.end()) {
+    throw InputError(fmt::format("{}: table {}: expected one of {}", file_.string(), table,
+                                 fmt::join(known, ", ")));
+  }
+  Statement select(*database_, fmt::format("SELECT * FROM \"{}\"", table));
+  std::string line;
+  for (int c = 0; c < select.columns(); ++c) {
+    line.append(c == 0 ? "" : ",").append(quoted(select.name(c)));
+  }
+  write(line + '\n');
+  while (select.step()) {
+    line.clear();
+    for (int c = 0; c < select.columns(); ++c) {
+      if (c > 0) line += ',';
+      if (select.is_real(c)) {
+        line += fmt::format("{}", select.real(c));
+      } else if (!select.is_null(c)) {
+        line += quoted(select.text(c));
+      }
+    }
+    write(line + '\n');
+  }
+}
+
+}  // namespace metamorph::evolve

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "evolve/experiment/experiment.h"
+#include "evolve/genetics/genome.h"
+
+namespace metamorph::evolve {
+
+class Database;
+
+/// The best individual by eq 6 of one generation, as recorded.
+struct Champion {
+  int generation = 0;
+  std::int64_t individual = 0;
+  double eq6 = 0;
+  double score = 0;
+  Genome genome;                      ///< exact: replays to the recorded bits
+  std::vector<double> distances;      ///< [trials] d; 0 where not run
+  std::vector<std::string> statuses;  ///< [trials] "" where not run
+};
+
+/// Reads the record of a run, also while it is being written. Throws InputError.
+class RunReader {
+ public:
+  /// `run` is a run's directory or its run.db.
+  explicit RunReader(const std::filesystem::path& run);
+  ~RunReader();
+
+  Experiment experiment() const;
+  int generations_done() const;
+  Champion champion(int generation) const;
+  Champion best() const;  ///< of all generations, the earliest of equals
+  std::map<std::string, std::int64_t> status_counts() const;              ///< of the whole run
+  std::vector<std::pair<std::string, double>> phase_seconds() const;      ///< of the whole run
+  std::vector<std::pair<std::string, std::string>> last_session() const;  ///< key, value
+
+  std::vector<std::string> tables() const;  ///< tables and views
+  /// A table as CSV: a header line, then the rows in order of their key; numbers read back to the
+  /// same bits, NULL is empty.
+  void write_csv(const std::string& table,
+                 const std::function<void(std::string_view)>& write) const;
+
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  Champion read_champion(const std::string& sql_end) const;
+
+  std::filesystem::path file_;
+  std::unique_ptr<Database> database_;
+};
+
+}  // namespace metamorph::evolve

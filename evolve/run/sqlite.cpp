@@ -1,0 +1,151 @@
+#include "evolve/run/sqlite.h"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <cmath>
+#include <limits>
+
+#include "evolve/files/input_error.h"
+
+namespace metamorph::evolve {
+
+Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
+  // A missing file would be created by the write mode and look like an empty run.
+  if (mode != Mode::create && !std::filesystem::is_regular_file(file)) {
+    throw InputError(fmt::format("{}: no such file: expected the record of a run", file.string()));
+  }
+  const int flags = mode == Mode::read    ? SQLITE_OPEN_READONLY
+                    : mode == Mode::write ? SQLITE_OPEN_READWRITE
+                                          : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  try {
+    check(sqlite3_open_v2(file.c_str(), &database_, flags, nullptr));
+    sqlite3_busy_timeout(database_, 10000);
+    run("PRAGMA foreign_keys = ON");
+  } catch (...) {
+    sqlite3_close(database_);
+    throw;
+  }
+}
+
+Database::~Database() { sqlite3_close(database_); }
+
+void Database::check(int code) {
+  if (code == SQLITE_OK || code == SQLITE_ROW || code == SQLITE_DONE) return;
+  std::string reason = database_ == nullptr ? sqlite3_errstr(code) : sqlite3_errmsg(database_);
+  switch (code & 0xff) {
+    case SQLITE_NOTADB:
+    case SQLITE_CORRUPT:
+      reason += ": not the record of a run, or damaged";
+      break;
+    case SQLITE_FULL:
+      reason += ": make room and go on with --resume; all generations before this one are safe";
+      break;
+    case SQLITE_READONLY:
+    case SQLITE_CANTOPEN:
+      reason += ": check that the directory exists and can be written";
+      break;
+    default:
+      break;
+  }
+  throw InputError(fmt::format("{}: {}", file_.string(), reason));
+}
+
+void Database::run(const std::string& sql) {
+  check(sqlite3_exec(database_, sql.c_str(), nullptr, nullptr, nullptr));
+}
+
+Statement::Statement(Database& database, std::string_view sql) : database_(database) {
+  database.check(sqlite3_prepare_v2(database.handle(), sql.data(), static_cast<int>(sql.size()),
+                                    &statement_, nullptr));
+}
+
+Statement::~Statement() { sqlite3_finalize(statement_); }
+
+Statement& Statement::bind(std::int64_t value) {
+  database_.check(sqlite3_bind_int64(statement_, next_++, value));
+  return *this;
+}
+
+Statement& Statement::bind(double value) {
+  database_.check(sqlite3_bind_double(statement_, next_++, value));
+  return *this;
+}
+
+Statement& Statement::bind(std::string_view value) {
+  database_.check(sqlite3_bind_text(statement_, next_++, value.data(),
+                                    static_cast<int>(value.size()), SQLITE_TRANSIENT));
+  return *this;
+}
+
+Statement& Statement::bind_blob(std::span<const std::uint8_t> value) {
+  database_.check(
+      sqlite3_bind_blob64(statement_, next_++, value.data(), value.size(), SQLITE_TRANSIENT));
+  return *this;
+}
+
+Statement& Statement::bind_null() {
+  database_.check(sqlite3_bind_null(statement_, next_++));
+  return *this;
+}
+
+bool Statement::step() {
+  const int code = sqlite3_step(statement_);
+  if (code == SQLITE_ROW) return true;
+  sqlite3_reset(statement_);
+  next_ = 1;
+  database_.check(code);
+  return false;
+}
+
+void Statement::run() {
+  while (step()) {
+  }
+}
+
+int Statement::columns() const { return sqlite3_column_count(statement_); }
+
+std::string Statement::name(int column) const { return sqlite3_column_name(statement_, column); }
+
+bool Statement::is_null(int column) const {
+  return sqlite3_column_type(statement_, column) == SQLITE_NULL;
+}
+
+bool Statement::is_real(int column) const {
+  return sqlite3_column_type(statement_, column) == SQLITE_FLOAT;
+}
+
+std::int64_t Statement::integer(int column) const {
+  return sqlite3_column_int64(statement_, column);
+}
+
+double Statement::real(int column) const {
+  return is_null(column) ? std::numeric_limits<double>::quiet_NaN()
+                         : sqlite3_column_double(statement_, column);
+}
+
+std::string Statement::text(int column) const {
+  const auto* text = sqlite3_column_text(statement_, column);
+  return text == nullptr ? "" : reinterpret_cast<const char*>(text);
+}
+
+std::span<const std::uint8_t> Statement::blob(int column) const {
+  const auto* data = static_cast<const std::uint8_t*>(sqlite3_column_blob(statement_, column));
+  return {data, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))};
+}
+
+Transaction::Transaction(Database& database) : database_(database) {
+  database_.run("BEGIN IMMEDIATE");
+}
+
+Transaction::~Transaction() {
+  // An error may have rolled it back already; the failure itself is on its way as an exception.
+  if (open_) sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
+void Transaction::commit() {
+  database_.run("COMMIT");
+  open_ = false;
+}
+
+}  // namespace metamorph::evolve

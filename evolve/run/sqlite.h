@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace metamorph::evolve {
+
+class Database;
+
+/// A prepared statement. Values are bound in order with bind(); NaN is stored as NULL and read back
+/// as NaN. Every failure of SQLite throws InputError with the file and the reason in one line.
+class Statement {
+ public:
+  Statement(Database& database, std::string_view sql);
+  ~Statement();
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  Statement& bind(std::int64_t value);
+  Statement& bind(int value) { return bind(static_cast<std::int64_t>(value)); }
+  Statement& bind(double value);
+  Statement& bind(std::string_view value);
+  Statement& bind_blob(std::span<const std::uint8_t> value);
+  Statement& bind_null();
+
+  /// Fetches the next row; false at the end, and the statement can be bound and run again.
+  bool step();
+  /// Runs a statement that returns no rows.
+  void run();
+
+  int columns() const;
+  std::string name(int column) const;
+  bool is_null(int column) const;
+  bool is_real(int column) const;
+  std::int64_t integer(int column) const;
+  double real(int column) const;
+  std::string text(int column) const;
+  std::span<const std::uint8_t> blob(int column) const;  ///< valid until the next step
+
+ private:
+  Database& database_;
+  sqlite3_stmt* statement_ = nullptr;
+  int next_ = 1;  ///< parameter the next bind() sets
+};
+
+/// An open SQLite file.
+class Database {
+ public:
+  enum class Mode { create, write, read };
+  Database(const std::filesystem::path& file, Mode mode);
+  ~Database();
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+
+  void run(const std::string& sql);  ///< one or more statements without results
+  void check(int code);              ///< throws InputError unless code is SQLITE_OK, ROW or DONE
+  sqlite3* handle() { return database_; }
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+  sqlite3* database_ = nullptr;
+};
+
+/// Begins a transaction; rolls it back unless committed.
+class Transaction {
+ public:
+  explicit Transaction(Database& database);
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  void commit();
+
+ private:
+  Database& database_;
+  bool open_ = true;
+};
+
+}  // namespace metamorph::evolve
