@@ -29,10 +29,13 @@ inline std::ostream& operator<<(std::ostream& out, const Simulator& simulator) {
   return out << simulator.name;
 }
 
-inline Simulator reference_simulator() {
+inline Simulator reference_simulator(
+    core::ReferenceMethod method = core::ReferenceMethod::drift_kick_drift) {
   return {"reference", round_off_64,
-          [](const core::Body& body, const core::Scene& scene, int every, const Observer& observe) {
+          [method](const core::Body& body, const core::Scene& scene, int every,
+                   const Observer& observe) {
             core::ReferenceOptions options;
+            options.method = method;
             options.observe_every = every;
             options.observe = observe;
             return core::simulate_reference(body, scene, options);
@@ -40,12 +43,14 @@ inline Simulator reference_simulator() {
 }
 
 inline Simulator fast_simulator(const std::string& name, double round_off,
-                                core::Precision precision) {
+                                core::Precision precision,
+                                core::Method method = core::Method::drift_kick_drift) {
   return {name, round_off,
-          [precision](const core::Body& body, const core::Scene& scene, int every,
-                      const Observer& observe) {
+          [precision, method](const core::Body& body, const core::Scene& scene, int every,
+                              const Observer& observe) {
             core::LocomotionOptions options;
             options.precision = precision;
+            options.method = method;
             options.threads = 1;
             return core::simulate_observed({&body, &scene}, options, every, observe);
           }};
