@@ -11,6 +11,7 @@
 #include "evolve/app/progress.h"
 #include "evolve/experiment/experiment_file.h"
 #include "evolve/files/input_error.h"
+#include "evolve/run/pictures.h"
 #include "evolve/run/run.h"
 
 namespace metamorph::evolve {
@@ -125,8 +126,12 @@ void evolve(const Arguments& given) {
   handle_signals();
   const std::unique_ptr<Record> record = open_record(given);
   Progress progress(isatty(STDERR_FILENO) == 1);
+  PictureReporter pictures;
   const RunSummary summary =
-      run(*record, {given.threads, [] { return interrupts > 0; }, {&progress}});
+      run(*record, {given.threads, [] { return interrupts > 0; }, {&pictures, &progress}});
+  if (!pictures.failure().empty()) {
+    fmt::print(stderr, "no picture of the best: {}\n", pictures.failure());
+  }
   const std::string directory = record->directory().string();
   if (summary.interrupted) {
     fmt::print("stopped after {} generations; go on with: metamorph evolve --resume {}\n",

@@ -39,10 +39,16 @@ void Progress::generation_done(const GenerationReport& report) {
   for (const core::Status status : core::all_statuses) {
     if (core::is_failure(status)) failures += counts[static_cast<std::size_t>(status)];
   }
-  const std::string line = fmt::format(
-      "generation {}/{}  best so far {:.3f} d  {:.0f} evaluations/s  {}{}", generation + 1, total,
-      report.best.eq6, rate, generation + 1 == total ? "done" : duration_text(left) + " left",
-      failures > 0 ? fmt::format("  {} failed", failures) : "");
+  std::string distances;
+  for (std::size_t t = 0; t < report.best.distances.size(); ++t) {
+    distances += fmt::format("{}{} {:.2f}", t == 0 ? "" : ", ", report.experiment.trials[t].name,
+                             report.best.distances[t]);
+  }
+  const std::string line =
+      fmt::format("generation {}/{}  best so far {:.3f} d ({})  {:.0f} evaluations/s  {}{}",
+                  generation + 1, total, report.best.eq6, distances, rate,
+                  generation + 1 == total ? "done" : duration_text(left) + " left",
+                  failures > 0 ? fmt::format("  {} failed", failures) : "");
   if (terminal_) {
     // Back to the start of the line, and clear it.
     fmt::print(stderr, "\r\033[K{}", line);

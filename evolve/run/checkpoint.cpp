@@ -63,6 +63,12 @@ class Reader {
 
 // One list of fields per type serves both directions.
 template <class Archive, class T>
+  requires std::same_as<std::remove_const_t<T>, double>
+void fields(Archive& a, T& value) {
+  a(value);
+}
+
+template <class Archive, class T>
   requires std::same_as<std::remove_const_t<T>, NodeGene>
 void fields(Archive& a, T& node) {
   a(node.id), a(node.kind);
@@ -102,7 +108,7 @@ void fields(Archive& a, T& checkpoint) {
   auto& s = checkpoint.search;
   a(s.archive_threshold), a(s.added_in_a_row), a(s.idle_generations);
   auto& b = checkpoint.best;
-  a(b.generation), a(b.individual), a(b.eq6), fields(a, b.genome);
+  a(b.generation), a(b.individual), a(b.eq6), a(b.score), a(b.distances), fields(a, b.genome);
 }
 
 template <class T>

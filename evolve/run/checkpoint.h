@@ -10,11 +10,14 @@
 
 namespace metamorph::evolve {
 
-/// The best individual by eq 6 that a run has seen.
+/// The best individual that a run has seen: by eq 6, then by score (while progressive search grows
+/// only larvae, eq 6 is often 0), then the earliest.
 struct BestEver {
   int generation = -1;  ///< -1: none yet
   std::int64_t individual = -1;
   double eq6 = -1;
+  double score = -1;
+  std::vector<double> distances;  ///< [trials] d
   Genome genome;
   bool operator==(const BestEver&) const = default;
 };

@@ -51,6 +51,19 @@ GenerationResult run_generation(const Experiment& experiment, const PopulationSt
   return result;
 }
 
+/// True if the champion of this generation is better than all before.
+bool keep_best(const PopulationState& population, const GenerationResult& result, BestEver& best) {
+  const std::size_t champion = result.champion;
+  const double eq6 = result.eq6[champion], score = result.scores[champion];
+  if (std::pair(eq6, score) <= std::pair(best.eq6, best.score)) return false;
+  best = {result.generation,           population.individuals[champion].id, eq6, score, {},
+          population.genomes[champion]};
+  for (const core::Outcome& outcome : result.individuals[champion].evaluation.trials) {
+    best.distances.push_back(outcome.distance);
+  }
+  return true;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> trials_to_run(const Experiment& experiment, int generation) {
@@ -82,11 +95,7 @@ RunSummary run(Record& record, const RunOptions& options) {
     const PopulationState population = state.population;  // as evaluated; the state breeds on
     const GenerationResult result =
         run_generation(experiment, population, state.search, evaluator, options.threads, seconds);
-    const bool improved = result.eq6[result.champion] > state.best.eq6;
-    if (improved) {
-      state.best = {result.generation, population.individuals[result.champion].id,
-                    result.eq6[result.champion], population.genomes[result.champion]};
-    }
+    const bool improved = keep_best(population, result, state.best);
     Stopwatch watch;
     next_generation(
         state.population, experiment.neat, result.scores,

@@ -64,7 +64,9 @@ Champion RunReader::champion(int generation) const {
   return read_champion(fmt::format("WHERE generation = {}", generation));
 }
 
-Champion RunReader::best() const { return read_champion("ORDER BY eq6 DESC, generation LIMIT 1"); }
+Champion RunReader::best() const {
+  return read_champion("ORDER BY eq6 DESC, score DESC, generation LIMIT 1");
+}
 
 Champion RunReader::read_champion(const std::string& sql_end) const {
   Statement select(

@@ -37,7 +37,7 @@ class RunReader {
   Experiment experiment() const;
   int generations_done() const;
   Champion champion(int generation) const;
-  Champion best() const;  ///< of all generations, the earliest of equals
+  Champion best() const;  ///< of all generations: by eq 6, then score, then the earliest
   std::map<std::string, std::int64_t> status_counts() const;              ///< of the whole run
   std::vector<std::pair<std::string, double>> phase_seconds() const;      ///< of the whole run
   std::vector<std::pair<std::string, std::string>> last_session() const;  ///< key, value

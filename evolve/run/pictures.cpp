@@ -1,0 +1,56 @@
+#include "evolve/run/pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/extract_body.h"
+#include "evolve/view/draw.h"
+
+namespace metamorph::evolve {
+
+Sheet individual_sheet(const Experiment& experiment, const Genome& genome,
+                       std::span<const core::Outcome> trials, const std::string& heading) {
+  const core::Network network = compile(genome);
+  const std::vector<int> steps = experiment.stages();
+  const std::vector<core::Embryo> embryos =
+      core::develop({&network, 1}, experiment.development, steps, 1).front();
+  std::vector<Stage> stages;
+  for (std::size_t t = 0; t < experiment.trials.size(); ++t) {
+    const Trial& trial = experiment.trials[t];
+    const auto step = std::lower_bound(steps.begin(), steps.end(), trial.stage) - steps.begin();
+    Stage stage;
+    stage.title = trial.name;
+    stage.embryo = embryos[static_cast<std::size_t>(step)];
+    stage.body = core::extract_body(stage.embryo, experiment.min_cells).body;
+    if (t < trials.size()) stage.outcome = trials[t];
+    stage.scene = trial.scene;
+    stage.ground = experiment.scene_of(trial).ground;
+    stages.push_back(std::move(stage));
+  }
+  // One stage knows no metamorphosis: no cell is drawn as born after it.
+  const int larva_steps = steps.size() > 1 ? steps.front() : experiment.development.steps + 1;
+  Sheet sheet = champion_sheet(stages, larva_steps);
+  sheet.heading = heading;
+  return sheet;
+}
+
+void PictureReporter::generation_done(const GenerationReport& report) {
+  if (!report.improved) return;
+  const std::size_t champion = report.result.champion;
+  const std::string heading =
+      fmt::format("{}, seed {}: best until generation {}, {:.3f} d (eq 6)", report.experiment.name,
+                  report.experiment.seed, report.best.generation, report.best.eq6);
+  try {
+    const Sheet sheet =
+        individual_sheet(report.experiment, report.best.genome,
+                         report.result.individuals[champion].evaluation.trials, heading);
+    for (const char* name : {"best.svg", "best.png"}) {
+      write_sheet(sheet, (directory_ / name).string());
+    }
+  } catch (const std::runtime_error& error) {
+    failure_ = error.what();
+  }
+}
+
+}  // namespace metamorph::evolve

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "evolve/run/reporter.h"
+#include "evolve/view/sheet.h"
+
+namespace metamorph::evolve {
+
+/// The picture of one individual: the embryo and body of every trial with its distance (figure 5).
+/// `trials` are its outcomes, as recorded.
+Sheet individual_sheet(const Experiment& experiment, const Genome& genome,
+                       std::span<const core::Outcome> trials, const std::string& heading);
+
+/// Keeps best.svg and best.png in the run's directory showing the best individual so far. A picture
+/// that cannot be written costs the run nothing; the reason is kept for the end.
+class PictureReporter : public Reporter {
+ public:
+  void started(const RunStart& start) override { directory_ = start.directory; }
+  void generation_done(const GenerationReport& report) override;
+
+  const std::string& failure() const { return failure_; }  ///< "" if all went well
+
+ private:
+  std::filesystem::path directory_;
+  std::string failure_;
+};
+
+}  // namespace metamorph::evolve
