@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "core/development.h"
+#include "core/extract_body.h"
+#include "evolve/app/commands.h"
+#include "evolve/app/options.h"
+#include "evolve/files/body_file.h"
+#include "evolve/files/embryo_file.h"
+#include "evolve/files/genome_file.h"
+#include "evolve/files/input_error.h"
+#include "evolve/files/output_file.h"
+#include "evolve/view/draw.h"
+
+namespace metamorph::evolve {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct GrowOptions {
+  std::string genome;
+  core::DevelopmentRules rules;
+  int min_cells = 8;
+  std::vector<int> at;  ///< empty: half and whole development
+  int larva_steps = 0;  ///< 0: half
+  std::string out;      ///< empty: named after the genome
+  std::string picture = "svg";
+  bool overwrite = false;
+  bool json = false;
+};
+
+/// One requested step: the state, its body and the files they go to.
+struct Grown {
+  core::Embryo embryo;
+  core::Extraction extraction;
+  fs::path embryo_file;
+  fs::path body_file;  ///< written where there is a body
+};
+
+/// The requested steps, ascending, each once.
+std::vector<int> steps_of(const GrowOptions& options) {
+  std::vector<int> steps = options.at;
+  if (steps.empty()) steps = {options.rules.steps / 2, options.rules.steps};
+  std::sort(steps.begin(), steps.end());
+  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+  if (steps.front() < 0 || steps.back() > options.rules.steps) {
+    throw InputError(fmt::format("--at: {}: expected steps from 0 to {}, the end of development",
+                                 steps.front() < 0 ? steps.front() : steps.back(),
+                                 options.rules.steps));
+  }
+  return steps;
+}
+
+std::vector<Grown> grow(const Genome& genome, const GrowOptions& options, const fs::path& out) {
+  const std::vector<int> steps = steps_of(options);
+  const std::array<core::Network, 1> networks = {compile(genome)};
+  auto embryos = core::develop(networks, options.rules, steps, 1);
+  std::vector<Grown> result;
+  for (core::Embryo& embryo : embryos.front()) {
+    Grown grown;
+    grown.extraction = core::extract_body(embryo, options.min_cells);
+    grown.embryo_file = out / fmt::format("embryo-{:04}.json", embryo.step);
+    grown.body_file = out / fmt::format("body-{:04}.json", embryo.step);
+    grown.embryo = std::move(embryo);
+    result.push_back(std::move(grown));
+  }
+  return result;
+}
+
+void draw(const std::vector<Grown>& all, int larva_steps, const fs::path& file) {
+  std::vector<core::Embryo> embryos;
+  std::vector<core::Body> bodies;
+  for (const Grown& grown : all) {
+    embryos.push_back(grown.embryo);
+    bodies.push_back(grown.extraction.body);
+  }
+  write_sheet(development_sheet(embryos, bodies, larva_steps), file.string());
+}
+
+void print(const std::vector<Grown>& all, bool as_json) {
+  if (!as_json)
+    fmt::print("step  cells  created  died  body     nodes  springs  triangles  file\n");
+  for (const Grown& grown : all) {
+    const core::Embryo& embryo = grown.embryo;
+    const core::Body& body = grown.extraction.body;
+    const auto status = core::name(grown.extraction.status);
+    if (!as_json) {
+      fmt::print("{:<4}  {:>5}  {:>7}  {:>4}  {:<7}  {:>5}  {:>7}  {:>9}  {}\n", embryo.step,
+                 embryo.cell_count(), embryo.created, embryo.died, status, body.node_count(),
+                 body.springs.size(), body.triangles.size(), grown.embryo_file.string());
+      continue;
+    }
+    nlohmann::ordered_json object = {{"step", embryo.step},
+                                     {"status", status},
+                                     {"embryo_cells", embryo.cell_count()},
+                                     {"created", embryo.created},
+                                     {"died", embryo.died},
+                                     {"cells", body.node_count()},
+                                     {"springs", body.springs.size()},
+                                     {"triangles", body.triangles.size()},
+                                     {"embryo_file", grown.embryo_file.string()}};
+    if (grown.extraction.status == core::Status::ok) {
+      object["body_file"] = grown.body_file.string();
+    }
+    fmt::print("{}\n",
+               object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  }
+}
+
+void grow_command(const GrowOptions& options) {
+  const Genome genome = read_genome(options.genome);
+  const fs::path out =
+      options.out.empty() ? fs::path(options.genome).stem() : fs::path(options.out);
+  const std::vector<Grown> all = grow(genome, options, out);
+  const fs::path picture = out / ("development." + options.picture);
+  const bool with_picture = options.picture != "none";
+
+  std::error_code error;
+  fs::create_directories(out, error);
+  if (error || !fs::is_directory(out)) {
+    throw InputError(out.string() + ": " + (error ? error.message() : "not a directory") +
+                     ": expected a directory that can be written");
+  }
+  // Everything is asked before anything is written.
+  const Overwrite overwrite = options.overwrite ? Overwrite::yes : Overwrite::no;
+  std::vector<fs::path> files;
+  for (const Grown& grown : all) {
+    files.push_back(grown.embryo_file);
+    if (grown.extraction.status == core::Status::ok) files.push_back(grown.body_file);
+  }
+  if (with_picture) files.push_back(picture);
+  std::vector<std::string> faults;
+  for (const fs::path& file : files) {
+    try {
+      check_writable(file, overwrite);
+    } catch (const InputError& fault) {
+      faults.insert(faults.end(), fault.lines().begin(), fault.lines().end());
+    }
+  }
+  if (!faults.empty()) throw InputError(faults);
+
+  for (const Grown& grown : all) {
+    write_embryo(grown.embryo_file, grown.embryo, grown.extraction, overwrite);
+    if (grown.extraction.status == core::Status::ok) {
+      write_body(grown.body_file, grown.extraction.body, overwrite);
+    }
+  }
+  const int larva_steps = options.larva_steps > 0 ? options.larva_steps : options.rules.steps / 2;
+  if (with_picture) draw(all, larva_steps, picture);
+  print(all, options.json);
+  if (with_picture && !options.json) fmt::print("picture: {}\n", picture.string());
+}
+
+}  // namespace
+
+void add_grow_command(CLI::App& app) {
+  const auto options = std::make_shared<GrowOptions>();
+  CLI::App* command = app.add_subcommand(
+      "grow",
+      "Develops one genome and writes the embryo and the body it would become at chosen steps, and "
+      "one picture of them all.");
+  command->add_option("GENOME", options->genome, "Genome file (metamorph-genome/1)")
+      ->required()
+      ->option_text("GENOME.json");
+  command->add_option("--at", options->at, "Steps to write, separated by commas")
+      ->delimiter(',')
+      ->option_text("STEP,... [half and whole development]");
+  command
+      ->add_option("--out", options->out,
+                   "Directory for embryo-STEP.json, body-STEP.json and the picture")
+      ->option_text("DIRECTORY [named after the genome]");
+  command->add_option("--picture", options->picture, "Kind of picture")
+      ->check(CLI::IsMember({"svg", "png", "pdf", "none"}).description(""))
+      ->option_text("svg|png|pdf|none [svg]");
+  command
+      ->add_option("--larva-steps", options->larva_steps,
+                   "Cells born from this step on are drawn red")
+      ->check(CLI::Range(1, 1000000))
+      ->option_text("STEP [half of development]");
+  add_development_options(*command, options->rules, options->min_cells);
+  command->add_flag("--overwrite", options->overwrite, "Replace files that exist");
+  command->add_flag("--json", options->json, "Print one JSON object per step instead of a table");
+  command->callback([options] { grow_command(*options); });
+}
+
+}  // namespace metamorph::evolve

@@ -1,0 +1,25 @@
+#pragma once
+
+// Options that several commands have.
+
+#include <CLI/CLI.hpp>
+
+#include "core/development.h"
+#include "core/locomotion.h"
+#include "core/scene.h"
+
+namespace metamorph::evolve {
+
+/// The rules by which a genome develops.
+void add_development_options(CLI::App& command, core::DevelopmentRules& rules, int& min_cells);
+
+/// How a body moves, whatever the scene.
+void add_locomotion_options(CLI::App& command, core::LocomotionOptions& options);
+
+/// --scene; one of the four environments of the model.
+void add_scene_option(CLI::App& command, std::string& name);
+
+/// The scene of that name.
+core::Scene scene_named(const std::string& name);
+
+}  // namespace metamorph::evolve

@@ -1,0 +1,175 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/locomotion.h"
+#include "evolve/app/commands.h"
+#include "evolve/app/options.h"
+#include "evolve/files/animat_file.h"
+#include "evolve/files/input_error.h"
+#include "evolve/files/outcome_json.h"
+#include "evolve/files/output_file.h"
+#include "evolve/files/trajectory_file.h"
+
+namespace metamorph::evolve {
+namespace {
+
+struct SimulateOptions {
+  std::vector<std::string> inputs;
+  std::string scene = "water";
+  double step = 0;  ///< 0: the scene's own
+  int run_steps = 3000;
+  core::LocomotionOptions locomotion;
+  BodyChoice choice;
+  int stage = 0;  ///< 0: the end of development
+  std::string trajectory;
+  int every = 0;  ///< 0: one paper step
+  bool overwrite = false;
+  bool json = false;
+};
+
+core::Scene scene_of(const SimulateOptions& options) {
+  core::Scene scene = scene_named(options.scene);
+  if (options.step > 0) scene.step = options.step;
+  scene.run_steps = options.run_steps;
+  return scene;
+}
+
+std::vector<Animat> animats_of(const SimulateOptions& options) {
+  BodyChoice choice = options.choice;
+  choice.stage = options.stage > 0 ? options.stage : choice.rules.steps;
+  if (choice.stage > choice.rules.steps) {
+    throw InputError(fmt::format("--stage: {}: expected at most {}, the end of development",
+                                 choice.stage, choice.rules.steps));
+  }
+  const std::vector<std::filesystem::path> paths(options.inputs.begin(), options.inputs.end());
+  return read_animats(paths, choice, options.locomotion.threads);
+}
+
+core::Outcome without_body(core::Status status) {
+  core::Outcome outcome;
+  outcome.status = status;
+  return outcome;
+}
+
+/// All animats as one batch; those without a body keep their status.
+std::vector<core::Outcome> simulate_all(const std::vector<Animat>& animats,
+                                        const core::Scene& scene,
+                                        const core::LocomotionOptions& options) {
+  std::vector<core::LocomotionTask> tasks;
+  for (const Animat& animat : animats) {
+    if (animat.status == core::Status::ok) tasks.push_back({&animat.body, &scene});
+  }
+  const std::vector<core::Outcome> moved = core::simulate(tasks, options);
+  std::vector<core::Outcome> outcomes;
+  auto next = moved.begin();
+  for (const Animat& animat : animats) {
+    outcomes.push_back(animat.status == core::Status::ok ? *next++ : without_body(animat.status));
+  }
+  return outcomes;
+}
+
+core::Outcome simulate_with_trajectory(const Animat& animat, const core::Scene& scene,
+                                       const SimulateOptions& options) {
+  if (animat.status != core::Status::ok) return without_body(animat.status);
+  TrajectoryWriter writer(options.trajectory, options.overwrite ? Overwrite::yes : Overwrite::no);
+  const int paper_step = std::max(1, static_cast<int>(std::lround(core::paper_step / scene.step)));
+  const core::Outcome outcome = core::simulate_observed(
+      {&animat.body, &scene}, options.locomotion, options.every > 0 ? options.every : paper_step,
+      [&](const core::Frame& frame) { writer.write(frame); });
+  writer.finish();
+  return outcome;
+}
+
+void print_table(const std::vector<Animat>& animats, const std::vector<core::Outcome>& outcomes) {
+  std::size_t width = 4;
+  for (const Animat& animat : animats) width = std::max(width, animat.name.size());
+  fmt::print("{:<{}}  {:<14} {:>10} {:>9} {:>9} {:>5} {:>7} {:>9} {:>8} {:>7} {:>8} {:>9}\n",
+             "file", width, "status", "distance/d", "x/d", "y/d", "cells", "springs", "triangles",
+             "steps", "settle", "min S/S0", "max speed");
+  for (std::size_t i = 0; i < animats.size(); ++i) {
+    const core::Outcome& o = outcomes[i];
+    fmt::print(
+        "{:<{}}  {:<14} {:>10.4f} {:>9.4f} {:>9.4f} {:>5} {:>7} {:>9} {:>8} {:>7.1f} {:>8.4f} "
+        "{:>9.4f}\n",
+        animats[i].name, width, core::name(o.status), o.distance, o.mean_position[0],
+        o.mean_position[1], o.cells, o.springs, o.triangles, o.steps, o.settle_time,
+        o.min_area_ratio, o.max_speed);
+    if (core::is_failure(o.status)) {
+      fmt::print("{:<{}}  failed at step {}, index {}, value {}\n", "", width, o.failed_step,
+                 o.failed_index, o.failed_value);
+    }
+  }
+}
+
+void simulate_command(const SimulateOptions& options) {
+  if (!options.trajectory.empty()) {
+    check_writable(options.trajectory, options.overwrite ? Overwrite::yes : Overwrite::no);
+  }
+  const std::vector<Animat> animats = animats_of(options);
+  const core::Scene scene = scene_of(options);
+  std::vector<core::Outcome> outcomes;
+  if (options.trajectory.empty()) {
+    outcomes = simulate_all(animats, scene, options.locomotion);
+  } else if (animats.size() == 1) {
+    outcomes = {simulate_with_trajectory(animats.front(), scene, options)};
+  } else {
+    throw InputError(fmt::format("--trajectory: {} bodies: expected one", animats.size()));
+  }
+  if (!options.json) {
+    print_table(animats, outcomes);
+    return;
+  }
+  for (std::size_t i = 0; i < animats.size(); ++i) {
+    fmt::print("{}\n",
+               outcome_json({{"file", animats[i].name}, {"scene", scene.name}}, outcomes[i]));
+  }
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app) {
+  const auto options = std::make_shared<SimulateOptions>();
+  CLI::App* command = app.add_subcommand("simulate",
+                                         "Moves bodies in a scene and prints how far they got. "
+                                         "Several files, or those of a directory, "
+                                         "run as one batch; a genome is developed first.");
+  command->add_option("INPUT", options->inputs, "Body or genome files, or directories of them")
+      ->required()
+      ->option_text("FILE|DIRECTORY...");
+  add_scene_option(*command, options->scene);
+  command->add_option("--steps", options->run_steps, "Length of the run, in paper steps of 0.2")
+      ->check(CLI::Range(1, 100000000))
+      ->option_text("STEPS [3000]");
+  command->add_option("--dt", options->step, "Step of the integrator, in time units")
+      ->check(CLI::Range(1e-6, 10.0))
+      ->option_text("TIME [0.2 in water, 0.1 on land]");
+  add_locomotion_options(*command, options->locomotion);
+  command->add_option("--threads", options->locomotion.threads, "Threads; 0 for all there are")
+      ->check(CLI::Range(0, 4096))
+      ->option_text("N [0]");
+  command
+      ->add_option("--stage", options->stage, "Development step at which a genome's body is taken")
+      ->check(CLI::Range(1, 1000000))
+      ->option_text("STEP [end of development]")
+      ->group("Development");
+  add_development_options(*command, options->choice.rules, options->choice.min_cells);
+  command
+      ->add_option("--trajectory", options->trajectory,
+                   "Write the motion of a single body as CSV: step, time, node, x, y, vx, vy")
+      ->option_text("FILE.csv");
+  command->add_option("--every", options->every, "Integrator steps between two frames written")
+      ->check(CLI::Range(1, 100000000))
+      ->option_text("N [one paper step]");
+  command->add_flag("--overwrite", options->overwrite, "Replace a file that exists");
+  command->add_flag("--json", options->json, "Print one JSON object per body instead of a table");
+  command->callback([options] { simulate_command(*options); });
+}
+
+}  // namespace metamorph::evolve

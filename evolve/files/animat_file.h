@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/body.h"
+#include "core/development.h"
+#include "core/status.h"
+
+namespace metamorph::evolve {
+
+/// How a genome becomes a body.
+struct BodyChoice {
+  core::DevelopmentRules rules;
+  int stage = 1200;   ///< development step at which the body is taken, <= rules.steps
+  int min_cells = 8;  ///< fewer are no body
+};
+
+/// Something that can be put into a scene.
+struct Animat {
+  std::string name;                        ///< the file it came from
+  core::Status status = core::Status::ok;  ///< empty or no_body: development gave no body
+  core::Body body;
+};
+
+/// Reads what `paths` name, in order: body and genome files, and of a directory every such file
+/// among its *.json (not below it), ascending by name; embryo files there, which grow writes beside
+/// the bodies, are left out. Genomes are grown as one batch. Throws InputError with the faults of
+/// all files, and for a directory without a body or genome.
+std::vector<Animat> read_animats(const std::vector<std::filesystem::path>& paths,
+                                 const BodyChoice& choice, int threads);
+
+}  // namespace metamorph::evolve
