@@ -165,8 +165,7 @@ void add_grow_command(CLI::App& app) {
   const auto options = std::make_shared<GrowOptions>();
   CLI::App* command = app.add_subcommand(
       "grow",
-      "Develops one genome and writes the embryo and the body it would become at chosen steps, and "
-      "one picture of them all.");
+      "Develops one genome; writes embryos, bodies and a picture at chosen steps");
   command->add_option("GENOME", options->genome, "Genome file (metamorph-genome/1)")
       ->required()
       ->option_text("GENOME.json");

@@ -140,7 +140,7 @@ void add_simulate_command(CLI::App& app) {
                                          "Moves bodies in a scene and prints how far they got. "
                                          "Several files, or those of a directory, "
                                          "run as one batch; a genome is developed first.");
-  command->add_option("INPUT", options->inputs, "Body or genome files, or directories of them")
+  command->add_option("INPUT", options->inputs, "Body or genome files, or directories of them; genomes are developed first")
       ->required()
       ->option_text("FILE|DIRECTORY...");
   add_scene_option(*command, options->scene);
