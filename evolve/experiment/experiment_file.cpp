@@ -119,6 +119,8 @@ class Reader {
     read_scenes(file);
     apply_overrides(true);
     for (const Contradiction& c : contradictions(experiment_)) {
+      const bool of_trials = c.key == "trials" || c.key.starts_with("scenes.");
+      if (of_trials && !trials_known_) continue;  // told already
       faults_.push_back(fmt::format("{}: expected {}", placed(c.key), c.expected));
     }
     if (!faults_.empty()) throw InputError(faults_);
@@ -142,9 +144,12 @@ class Reader {
     return fmt::format("{}: {}{}", given == origin_.end() ? source_ : given->second, key, value);
   }
 
-  void unknown(const std::string& where, const std::string& path, const std::string& value) {
+  void unknown(const std::string& where, const std::string& path, const std::string& value,
+               const Section* own = nullptr) {
     std::vector<std::string> paths = {"trials", "scenes"};
-    for (const Section& section : all_sections(experiment_)) {
+    std::vector<Section> sections = all_sections(experiment_);
+    if (own != nullptr) sections.insert(sections.begin(), *own);  // not in the experiment yet
+    for (const Section& section : sections) {
       if (!section.path.empty()) paths.push_back(section.path);
       for (const Key& key : section.keys) paths.push_back(join_path(section.path, key.name));
     }
@@ -164,7 +169,7 @@ class Reader {
     const auto key = std::find_if(section.keys.begin(), section.keys.end(),
                                   [&](const Key& k) { return k.name == name; });
     if (key == section.keys.end()) {
-      unknown(where, path, shown(node));
+      unknown(where, path, shown(node), &section);
     } else if (!assign(*key, node)) {
       faults_.push_back(
           fmt::format("{}: {} = {}: expected {}", where, path, shown(node), expectation(*key)));
@@ -202,6 +207,7 @@ class Reader {
                                         [](const toml::node& entry) { return entry.is_table(); })) {
       faults_.push_back(fmt::format("{}: trials = {}: expected a list of tables [[trials]]",
                                     at(*node), shown(*node)));
+      trials_known_ = false;
       return;
     }
     experiment_.trials.reserve(list->size());
@@ -310,6 +316,7 @@ class Reader {
   const std::vector<Override>& overrides_;
   Experiment experiment_;
   std::map<std::string, std::string> origin_;  ///< where each given key was given
+  bool trials_known_ = true;                   ///< false: `trials` is not what it should be
   std::vector<std::string> faults_;
 };
 

@@ -212,7 +212,7 @@ std::string expectation(const Key& key) {
     }
     std::string operator()(const Choice& c) const {
       std::string text = "one of";
-      for (const std::string_view name : c.names) {
+      for (const std::string_view& name : c.names) {
         text += fmt::format("{}\"{}\"", &name == &c.names.front() ? " " : ", ", name);
       }
       return text;

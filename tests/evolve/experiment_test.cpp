@@ -1,0 +1,336 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "evolve/experiment/experiment_file.h"
+#include "evolve/experiment/keys.h"
+#include "evolve/experiment/nearest_name.h"
+#include "evolve/files/input_error.h"
+
+namespace metamorph::evolve {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::filesystem::path shipped(const std::string& name) {
+  return std::filesystem::path(METAMORPH_EXPERIMENTS) / (name + ".toml");
+}
+
+std::vector<std::string> faults_of(const std::string& text,
+                                   const std::vector<Override>& overrides = {}) {
+  try {
+    parse_experiment(text, "x.toml", overrides);
+  } catch (const InputError& error) {
+    return error.lines();
+  }
+  return {};
+}
+
+constexpr const char* good =
+    "name = \"x\"\n"
+    "[[trials]]\nname = \"larva\"\nstage = 600\nscene = \"water\"\n"
+    "[[trials]]\nname = \"adult\"\nstage = 1200\nscene = \"land\"\n";
+
+/// What MODEL section 7 and the paper's section 3 say of an experiment.
+struct Expected {
+  std::string name;
+  SearchKind kind;
+  int generations, steps, max_cells;
+  std::vector<std::pair<int, std::string>> trials;  // stage, scene
+};
+
+const std::vector<Expected> model_experiments = [] {
+  std::vector<Expected> all;
+  const std::map<std::string, SearchKind> kinds = {{"simple", SearchKind::simple},
+                                                   {"progressive", SearchKind::progressive},
+                                                   {"novelty", SearchKind::novelty}};
+  for (const auto& [name, kind] : kinds) {
+    all.push_back(
+        {"water-to-land-" + name, kind, 2000, 1200, 256, {{600, "water"}, {1200, "land"}}});
+    all.push_back(
+        {"land-to-water-" + name, kind, 2000, 1200, 256, {{600, "land"}, {1200, "water"}}});
+  }
+  for (const int steps : {600, 1200}) {
+    all.push_back({"amphibious-" + std::to_string(steps),
+                   SearchKind::novelty,
+                   2000,
+                   steps,
+                   256,
+                   {{steps, "water"}, {steps, "land"}}});
+  }
+  all.push_back({"slope-metamorphic",
+                 SearchKind::progressive,
+                 1000,
+                 800,
+                 128,
+                 {{400, "land-right"}, {800, "slope"}}});
+  all.push_back(
+      {"slope-specialist-flat", SearchKind::simple, 1000, 400, 128, {{400, "land-right"}}});
+  all.push_back({"slope-specialist-slope", SearchKind::simple, 1000, 800, 128, {{800, "slope"}}});
+  return all;
+}();
+
+TEST(Experiment, ShippedFilesAreThoseOfTheModel) {
+  for (const Expected& expected : model_experiments) {
+    SCOPED_TRACE(expected.name);
+    const Experiment e = read_experiment(shipped(expected.name));
+    EXPECT_EQ(e.name, expected.name);
+    EXPECT_EQ(e.search.kind, expected.kind);
+    EXPECT_EQ(e.generations, expected.generations);
+    EXPECT_EQ(e.development.steps, expected.steps);
+    EXPECT_EQ(e.development.max_cells, expected.max_cells);
+    EXPECT_EQ(e.neat.population, 300);
+    ASSERT_EQ(e.trials.size(), expected.trials.size());
+    for (std::size_t t = 0; t < e.trials.size(); ++t) {
+      EXPECT_EQ(e.trials[t].stage, expected.trials[t].first);
+      EXPECT_EQ(e.trials[t].scene, expected.trials[t].second);
+    }
+  }
+}
+
+TEST(Experiment, EveryShippedFileLoadsAndSurvivesTheRoundTrip) {
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(METAMORPH_EXPERIMENTS)) {
+    SCOPED_TRACE(entry.path().string());
+    const Experiment e = read_experiment(entry.path());
+    EXPECT_EQ(e.name, entry.path().stem().string());
+    const std::string text = to_toml(e);
+    EXPECT_EQ(to_toml(parse_experiment(text, "again")), text);
+    ++files;
+  }
+  EXPECT_GE(files, model_experiments.size());
+}
+
+TEST(Experiment, DefaultsAreThoseOfTheTypes) {
+  const Experiment e = parse_experiment(good, "x.toml");
+  const Experiment untouched;
+  Experiment parsed = e, fresh = untouched;
+  fresh.name = parsed.name;
+  const auto a = fixed_sections(parsed), b = fixed_sections(fresh);
+  for (std::size_t s = 0; s < a.size(); ++s) {
+    for (std::size_t k = 0; k < a[s].keys.size(); ++k) {
+      EXPECT_EQ(value_text(a[s].keys[k]), value_text(b[s].keys[k])) << a[s].keys[k].name;
+    }
+  }
+  EXPECT_EQ(e.scene_of(e.trials[0]).drag, true);
+  EXPECT_EQ(e.scene_of(e.trials[1]).ground, true);
+  EXPECT_EQ(e.scene_of(e.trials[1]).step, core::land_scene().step);
+}
+
+TEST(Experiment, KeysAreDistinctAndHaveDefaultsInRange) {
+  Experiment e = parse_experiment(good, "x.toml");
+  for (const Section& section : all_sections(e)) {
+    std::set<std::string_view> names;
+    for (const Key& key : section.keys) {
+      EXPECT_TRUE(names.insert(key.name).second) << section.path << "." << key.name;
+      EXPECT_FALSE(key.help.empty());
+      if (const auto* number = std::get_if<double*>(&key.field)) {
+        EXPECT_LE(key.low, **number) << key.name;
+        EXPECT_GE(key.high, **number) << key.name;
+      }
+    }
+  }
+}
+
+TEST(Experiment, NoTwoKeysShareAField) {
+  Experiment e = parse_experiment(good, "x.toml");
+  std::set<const void*> fields;
+  for (const Section& section : all_sections(e)) {
+    for (const Key& key : section.keys) {
+      std::visit(
+          [&](const auto& field) {
+            if constexpr (std::is_pointer_v<std::decay_t<decltype(field)>>) {
+              EXPECT_TRUE(fields.insert(field).second) << section.path << "." << key.name;
+            }
+          },
+          key.field);
+    }
+  }
+}
+
+// Any numbers in range come back to the same bits through the text in the record.
+RC_GTEST_PROP(Experiment, AnyNumbersSurviveTheRoundTrip, ()) {
+  Experiment e = parse_experiment(good, "x.toml");
+  for (const Section& section : all_sections(e)) {
+    for (const Key& key : section.keys) {
+      if (auto* const* number = std::get_if<double*>(&key.field)) {
+        const double share = *rc::gen::inRange(0, 1 << 30) / static_cast<double>(1 << 30);
+        **number = key.low + share * (std::min(key.high, 1e6) - key.low);
+      } else if (auto* const* flag = std::get_if<bool*>(&key.field)) {
+        **flag = *rc::gen::arbitrary<bool>();
+      }
+    }
+  }
+  // Put right what random numbers contradict.
+  e.development.period_max = std::max(e.development.period_min, e.development.period_max);
+  e.search.archive_threshold = std::max(e.search.archive_floor, e.search.archive_threshold);
+  e.neat.compatibility_threshold =
+      std::max(e.neat.compatibility_floor, e.neat.compatibility_threshold);
+  e.neat.weight_limit = 1000;
+  e.neat.initial_weight = std::min(e.neat.initial_weight, 1000.0);
+  e.neat.mutate_weights += 1;
+  e.neat.mutate_weights = std::min(e.neat.mutate_weights, 1e6);
+  Experiment back = parse_experiment(to_toml(e), "again");
+  const auto a = all_sections(e), b = all_sections(back);
+  RC_ASSERT(a.size() == b.size());
+  for (std::size_t s = 0; s < a.size(); ++s) {
+    for (std::size_t k = 0; k < a[s].keys.size(); ++k) {
+      RC_ASSERT(a[s].keys[k].name == b[s].keys[k].name);
+      if (auto* const* number = std::get_if<double*>(&a[s].keys[k].field)) {
+        RC_ASSERT(**number == *std::get<double*>(b[s].keys[k].field));
+      } else {
+        RC_ASSERT(value_text(a[s].keys[k]) == value_text(b[s].keys[k]));
+      }
+    }
+  }
+}
+
+TEST(Experiment, ChangedScenes) {
+  const Experiment e = parse_experiment(
+      "name = \"x\"\n[[trials]]\nname = \"a\"\nstage = 600\nscene = \"syrup\"\n"
+      "[[trials]]\nname = \"b\"\nstage = 600\nscene = \"slope\"\n"
+      "[scenes.syrup]\nbase = \"water\"\ndrag_normal = 7\n[scenes.slope]\nslope_degrees = 5.5\n",
+      "x.toml");
+  EXPECT_EQ(e.scene_of(e.trials[0]).drag_normal, 7);
+  EXPECT_EQ(e.scene_of(e.trials[0]).drag_tangential, core::water_scene().drag_tangential);
+  EXPECT_EQ(e.scene_of(e.trials[0]).name, "syrup");
+  EXPECT_EQ(e.scene_of(e.trials[1]).slope_degrees, 5.5);
+  EXPECT_EQ(e.scene_of(e.trials[1]).distance, core::DistanceRule::rightward);
+  EXPECT_EQ(e.stages(), std::vector<int>{600});
+}
+
+TEST(Experiment, OverridesReachEveryKindOfKey) {
+  const Experiment e = parse_experiment(good, "x.toml",
+                                        {parse_override("neat.population=12"),
+                                         parse_override("search.kind=novelty"),
+                                         parse_override("trials.adult.scene=slope"),
+                                         parse_override("scenes.slope.friction=0.5"),
+                                         parse_override("scenes.*.run_steps=300"),
+                                         parse_override("scenes.water.self_collision=false"),
+                                         {"--seed", "seed", "99"}});
+  EXPECT_EQ(e.neat.population, 12);
+  EXPECT_EQ(e.search.kind, SearchKind::novelty);
+  EXPECT_EQ(e.scene_of(e.trials[1]).friction, 0.5);
+  EXPECT_EQ(e.scene_of(e.trials[0]).run_steps, 300);
+  EXPECT_EQ(e.scene_of(e.trials[1]).run_steps, 300);
+  EXPECT_FALSE(e.scene_of(e.trials[0]).self_collision);
+  EXPECT_EQ(e.seed, 99u);
+}
+
+/// A change to the good file, and the line it must cost.
+struct Bad {
+  std::string text;
+  std::string line;
+};
+
+TEST(Experiment, EveryFaultGetsItsLine) {
+  const std::string g = good;  // 9 lines
+  const std::vector<Bad> table = {
+      {g + "[neat]\npopulaton = 5\n",
+       "x.toml:11: neat.populaton = 5: unknown key; did you mean neat.population?"},
+      {"population = 5\n" + g,
+       "x.toml:1: population = 5: unknown key; did you mean neat.population?"},
+      {"qqqqqqqq = 5\n" + g, "x.toml:1: qqqqqqqq = 5: unknown key"},
+      {"generations = \"many\"\n" + g,
+       "x.toml:1: generations = \"many\": expected a whole number from 1 to 10000000"},
+      {"generations = 1.5\n" + g,
+       "x.toml:1: generations = 1.5: expected a whole number from 1 to 10000000"},
+      {"generations = 0\n" + g,
+       "x.toml:1: generations = 0: expected a whole number from 1 to 10000000"},
+      {"seed = -1\n" + g,
+       "x.toml:1: seed = -1: expected a whole number from 0 to 9007199254740992"},
+      {g + "[neat]\ncrossover = 1.5\n",
+       "x.toml:11: neat.crossover = 1.5: expected a number from 0 to 1"},
+      {g + "[neat]\ncrossover = nan\n",
+       "x.toml:11: neat.crossover = nan: expected a number from 0 to 1"},
+      {g + "[neat]\ncrossover = true\n",
+       "x.toml:11: neat.crossover = true: expected a number from 0 to 1"},
+      {g + "[search]\nkind = \"newness\"\n",
+       "x.toml:11: search.kind = \"newness\": expected one of \"simple\", \"progressive\", "
+       "\"novelty\""},
+      {g + "[scenes.water]\ndrag = 1\n",
+       "x.toml:11: scenes.water.drag = 1: expected true or false"},
+      {g + "[scenes.slope]\nfriction = 1\n",
+       "x.toml:10: scenes.slope: expected a scene that a trial names"},
+      {g + "[scenes.water]\nfrction = 1\n",
+       "x.toml:11: scenes.water.frction = 1: unknown key; did you mean scenes.water.friction?"},
+      {g + "[scenes.water]\nbase = \"air\"\n",
+       "x.toml:11: scenes.water.base = \"air\": expected one of \"water\", \"land\", "
+       "\"land-right\", \"slope\""},
+      {"neat = 3\n" + g, "x.toml:1: neat = 3: expected a table [neat]"},
+      {"trials = 3\nname = \"x\"\n", "x.toml:1: trials = 3: expected a list of tables [[trials]]"},
+      {"name = \"x/y\"\n" + g.substr(g.find('\n') + 1),
+       "x.toml:1: name = \"x/y\": expected a name of letters, digits, '-', '_' and '.', in quotes"},
+      {g.substr(g.find('\n') + 1),
+       "x.toml: name is missing: expected a name of letters, digits, '-', '_' and '.', in quotes"},
+      {g + "[[trials]]\nname = \"third\"\nstage = 1200\nscene = \"land\"\n",
+       "x.toml: trials: expected one or two [[trials]] tables, there are 3"},
+      {"name = \"x\"\n[[trials]]\nname = \"a\"\nstage = 1300\nscene = \"water\"\n",
+       "x.toml:4: trials.a.stage = 1300: expected at most development.steps = 1200"},
+      {"name = \"x\"\n[[trials]]\nname = \"a\"\nstage = 600\nscene = \"lava\"\n",
+       "x.toml:5: trials.a.scene = \"lava\": expected water, land, land-right, slope or the name "
+       "of a [scenes.NAME] table"},
+      {"name = \"x\"\n[[trials]]\nname = \"a\"\nscene = \"water\"\n",
+       "x.toml:2: trials.a: stage is missing"},
+      {"name = \"x\"\n[search]\nkind = \"progressive\"\n[[trials]]\nname = \"a\"\nstage = 1\n"
+       "scene = \"water\"\n",
+       "x.toml:3: search.kind = \"progressive\": expected simple or novelty: progressive search "
+       "needs two trials (larva, adult), there are 1"},
+      {g + "[development]\nperiod_min = 200\n",
+       "x.toml:11: development.period_min = 200: expected at most development.period_max = 120"},
+      {g + "[neat]\nspecies_max = 3\n",
+       "x.toml: neat.species_min = 5: expected at most neat.species_max = 3"},
+      {g + "[neat]\nmutate_weights = 0\n",
+       "x.toml:11: neat.mutate_weights = 0: expected more than 0: the other mutations can all "
+       "fail"},
+  };
+  for (const Bad& bad : table) {
+    EXPECT_THAT(faults_of(bad.text), ElementsAre(bad.line)) << bad.text;
+  }
+}
+
+TEST(Experiment, AllFaultsAreToldAtOnce) {
+  const std::vector<std::string> faults =
+      faults_of(std::string("generations = 0\nfoo = 1\n") + good + "[neat]\nsevere = 2\nx = 1\n",
+                {parse_override("neat.young_bonus=no"), parse_override("scenes.mars.friction=1")});
+  EXPECT_THAT(faults, testing::UnorderedElementsAre(
+                          HasSubstr("x.toml:1: generations"), HasSubstr("x.toml:2: foo"),
+                          HasSubstr("x.toml:13: neat.severe"), HasSubstr("x.toml:14: neat.x"),
+                          "--set: neat.young_bonus = \"no\": expected a number from 0 to 1000000",
+                          HasSubstr("--set: scenes.mars.friction = 1: unknown key")));
+}
+
+TEST(Experiment, TextThatIsNoTomlIsPlaced) {
+  EXPECT_THAT(faults_of("name = \"x\"\ngenerations = = 3\n"),
+              ElementsAre(HasSubstr("x.toml:2: not valid TOML")));
+  EXPECT_THROW(read_experiment("no/such/file.toml"), InputError);
+  EXPECT_THROW(read_experiment("/"), InputError);
+  for (const char* text : {"", "=", "a=", "=3", "abc"}) {
+    EXPECT_THROW(parse_override(text), InputError) << text;
+  }
+}
+
+TEST(NearestName, CountsEdits) {
+  const std::vector<std::string> names = {"population", "generations", "seed"};
+  EXPECT_EQ(nearest_name("populaton", names), "population");   // one missing
+  EXPECT_EQ(nearest_name("popualtion", names), "population");  // swapped
+  EXPECT_EQ(nearest_name("sede", names), "seed");
+  EXPECT_EQ(nearest_name("temperature", names), "");
+}
+
+TEST(Experiment, HelpNamesEveryKey) {
+  Experiment e = parse_experiment(good, "x.toml");
+  const std::string help = describe_keys();
+  for (const Section& section : fixed_sections(e)) {
+    for (const Key& key : section.keys) EXPECT_THAT(help, HasSubstr(std::string(key.name) + " = "));
+  }
+}
+
+}  // namespace
+}  // namespace metamorph::evolve
