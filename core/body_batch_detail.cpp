@@ -170,11 +170,11 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
       for (int k = 0; k < ring_size_[group]; ++k) {
         const std::size_t place = (offset.slots + at(slot + k)) * width + at(l);
         if (k >= size) {
-          neighbour_[place] = lane;
+          neighbour_[place] = kernels::record_offset<T>(lane);
           continue;
         }
         const RingSlot& ring = plan.rings.slots[at(plan.rings.begin[node] + k)];
-        neighbour_[place] = plan.lane[at(ring.neighbour)];
+        neighbour_[place] = kernels::record_offset<T>(plan.lane[at(ring.neighbour)]);
         ring_start_[place] = start[at(ring.neighbour)];
         ring_per_step_[place] = per_step[at(ring.neighbour)];
         if (ring.spring >= 0) {
@@ -200,10 +200,10 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
       const int size = node >= 0 ? plan.rings.edges(node) : 0;
       for (int e = 0; e < edge_size_[group]; ++e) {
         const std::size_t place = (offset.edge_slots + at(edge_slot + e)) * width + at(l);
-        edge_other_[place] = lane;
+        edge_other_[place] = kernels::record_offset<T>(lane);
         if (e < size) {
-          edge_other_[place] =
-              plan.lane[at(plan.rings.edge_other[at(plan.rings.edge_begin[at(node)] + e)])];
+          edge_other_[place] = kernels::record_offset<T>(
+              plan.lane[at(plan.rings.edge_other[at(plan.rings.edge_begin[at(node)] + e)])]);
           edge_present_[place] = T(1);
         }
       }

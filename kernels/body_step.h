@@ -52,7 +52,7 @@ struct StepExtremes {
 /// that hold (x_n, v_n) the same loop is symplectic Euler. `n` counts steps for the oscillators.
 template <class T, Terms terms>
 inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Turn<T> n,
-                      StepExtremes<T>& extremes) {
+                      StepExtremes<T>& seen) {
   using Pack = Lanes<T>;
   const Pack zero(T(0)), one(T(1)), tiny(T(1e-12));
   const Pack stiffness(c.stiffness), damping(c.damping), half_pressure_coefficient(c.pressure / 2);
@@ -60,6 +60,7 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
   const GroundCoefficients<T> ground{c.ground_stiffness, c.ground_damping, c.friction};
   const DragCoefficients<T> drag{c.drag_normal, c.drag_tangential};
 
+  StepExtremes<T> extremes = seen;  // a copy stays in registers
   for (int g = 0; g < body.groups; ++g) {
     const int node_base = lane_index<T>(g);
     const NodePack<T> self = load(body.now + node_base);
@@ -148,14 +149,15 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
     }
     vx.store(body.vx + node_base);
     vy.store(body.vy + node_base);
-    scatter({fma(h, vx, self.x), fma(h, vy, self.y), fma(extrapolate, ax, vx),
-             fma(extrapolate, ay, vy)},
-            body.next + node_base);
+    store({fma(h, vx, self.x), fma(h, vy, self.y), fma(extrapolate, ax, vx),
+           fma(extrapolate, ay, vy)},
+          body.next + node_base);
 
     const Pack speed2 = fma(vx, vx, vy * vy);
     extremes.largest_speed2 = max(speed2, extremes.largest_speed2);
     extremes.not_finite = fma(speed2, zero, extremes.not_finite);
   }
+  seen = extremes;
 }
 
 }  // namespace metamorph::kernels

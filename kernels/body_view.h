@@ -37,7 +37,7 @@ struct BodyView {
   const int* ring_begin = nullptr;  ///< first slot of the group
   const int* ring_size = nullptr;   ///< its slots
   // [slots * width]
-  const std::uint32_t* neighbour = nullptr;  ///< itself where the lane has no such slot
+  const std::uint32_t* neighbour = nullptr;  ///< record offset; its own where there is no such slot
   const T* rest_length = nullptr;            ///< L0, d
   const T* spring = nullptr;                 ///< 1 if the slot holds a spring, else 0
   const T* rest_area2 = nullptr;  ///< 2 S0 of the triangle to the slot before, d^2; 0: no pressure
@@ -47,10 +47,11 @@ struct BodyView {
   const T* inverse_mass = nullptr;  ///< 1; 0 in an idle lane
 
   // Outline edges of the nodes of the first groups, one slot per edge of a node.
-  const int* edge_begin = nullptr;            ///< [outline_groups] first edge slot
-  const int* edge_size = nullptr;             ///< [outline_groups]
-  const std::uint32_t* edge_other = nullptr;  ///< [edge slots * width] the edge's other end
-  const T* edge_present = nullptr;            ///< [edge slots * width] 1 or 0
+  const int* edge_begin = nullptr;  ///< [outline_groups] first edge slot
+  const int* edge_size = nullptr;   ///< [outline_groups]
+  const std::uint32_t* edge_other =
+      nullptr;                      ///< [edge slots * width] record offset of the other end
+  const T* edge_present = nullptr;  ///< [edge slots * width] 1 or 0
 
   // State. A record holds the position at which forces are taken and the velocity extrapolated to
   // the same moment; `vx`, `vy` the velocity after the last kick.

@@ -7,7 +7,7 @@
 namespace metamorph::kernels {
 
 /// What a neighbour needs to know of a node, in one load: 16 bytes in float, 32 in double.
-/// Gathering whole records and transposing them in registers takes a quarter of the time of four
+/// Gathering whole records and transposing them in registers takes a fraction of the time of four
 /// hardware gathers.
 template <class T>
 struct alignas(4 * sizeof(T)) NodeRecord {
@@ -20,98 +20,162 @@ struct NodePack {
   Lanes<T> x, y, vx, vy;
 };
 
+/// Place of a node's record in bytes from the first: what a gather adds to the base as it is.
+template <class T>
+constexpr std::uint32_t record_offset(std::uint32_t node) {
+  return node * static_cast<std::uint32_t>(sizeof(NodeRecord<T>));
+}
+
 namespace detail {
 
 template <class T>
-struct Quad {
-  typedef T Vector __attribute__((vector_size(4 * sizeof(T))));
-};
-
-template <class T>
-inline typename Quad<T>::Vector load_record(const NodeRecord<T>* records, std::uint32_t i) {
-  return *reinterpret_cast<const typename Quad<T>::Vector*>(records + i);
+inline const T* record_at(const NodeRecord<T>* records, std::uint32_t offset) {
+  return reinterpret_cast<const T*>(reinterpret_cast<const char*>(records) + offset);
 }
 
-// Transposes of 4x4 blocks. Row q of the input holds the records of the lanes q, q + 4, ...
+// Rows to lanes. Float: row q holds the records of the lanes q, q + 4, q + 8, ... in its 128-bit
+// parts. Double: the records of q, q + 4 in its 256-bit parts.
 #if defined(__AVX512F__)
-inline NodePack<float> transpose(const Lanes<float>::Vector (&z)[4]) {
-  const auto xy01 =
-      __builtin_shufflevector(z[0], z[1], 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29);
-  const auto xy23 =
-      __builtin_shufflevector(z[2], z[3], 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29);
-  const auto uv01 = __builtin_shufflevector(z[0], z[1], 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27,
-                                            14, 30, 15, 31);
-  const auto uv23 = __builtin_shufflevector(z[2], z[3], 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27,
-                                            14, 30, 15, 31);
-  return {
-      __builtin_shufflevector(xy01, xy23, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29),
-      __builtin_shufflevector(xy01, xy23, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30,
-                              31),
-      __builtin_shufflevector(uv01, uv23, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29),
-      __builtin_shufflevector(uv01, uv23, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30,
-                              31)};
+
+// Within each 128-bit part: the first (last) two numbers of a and b, interleaved; the first (last)
+// pair of a, then of b. Written as shuffles because GCC 12 warns of its own intrinsics for them.
+using Floats = Lanes<float>::Vector;
+[[gnu::always_inline]] inline Floats interleave_low(Floats a, Floats b) {
+  return __builtin_shufflevector(a, b, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29);
 }
-#elif defined(__AVX2__)
-inline NodePack<float> transpose(const Lanes<float>::Vector (&z)[4]) {
-  const auto xy01 = __builtin_shufflevector(z[0], z[1], 0, 8, 1, 9, 4, 12, 5, 13);
-  const auto xy23 = __builtin_shufflevector(z[2], z[3], 0, 8, 1, 9, 4, 12, 5, 13);
-  const auto uv01 = __builtin_shufflevector(z[0], z[1], 2, 10, 3, 11, 6, 14, 7, 15);
-  const auto uv23 = __builtin_shufflevector(z[2], z[3], 2, 10, 3, 11, 6, 14, 7, 15);
-  return {__builtin_shufflevector(xy01, xy23, 0, 1, 8, 9, 4, 5, 12, 13),
-          __builtin_shufflevector(xy01, xy23, 2, 3, 10, 11, 6, 7, 14, 15),
-          __builtin_shufflevector(uv01, uv23, 0, 1, 8, 9, 4, 5, 12, 13),
-          __builtin_shufflevector(uv01, uv23, 2, 3, 10, 11, 6, 7, 14, 15)};
+[[gnu::always_inline]] inline Floats interleave_high(Floats a, Floats b) {
+  return __builtin_shufflevector(a, b, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31);
 }
+[[gnu::always_inline]] inline Floats low_pairs(Floats a, Floats b) {
+  return __builtin_shufflevector(a, b, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29);
+}
+[[gnu::always_inline]] inline Floats high_pairs(Floats a, Floats b) {
+  return __builtin_shufflevector(a, b, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31);
+}
+
+[[gnu::always_inline]] inline NodePack<float> gather_floats(const NodeRecord<float>* records,
+                                                            const std::uint32_t* offset) {
+  Lanes<float>::Vector row[4];
+  for (int q = 0; q < 4; ++q) {
+    __m512 z = _mm512_castps128_ps512(_mm_load_ps(record_at(records, offset[q])));
+    z = _mm512_insertf32x4(z, _mm_load_ps(record_at(records, offset[q + 4])), 1);
+    z = _mm512_insertf32x4(z, _mm_load_ps(record_at(records, offset[q + 8])), 2);
+    row[q] = _mm512_insertf32x4(z, _mm_load_ps(record_at(records, offset[q + 12])), 3);
+  }
+  const detail::Floats xy01 = detail::interleave_low(row[0], row[1]),
+                       xy23 = detail::interleave_low(row[2], row[3]);
+  const detail::Floats uv01 = detail::interleave_high(row[0], row[1]),
+                       uv23 = detail::interleave_high(row[2], row[3]);
+  return {Lanes<float>(detail::low_pairs(xy01, xy23)), Lanes<float>(detail::high_pairs(xy01, xy23)),
+          Lanes<float>(detail::low_pairs(uv01, uv23)),
+          Lanes<float>(detail::high_pairs(uv01, uv23))};
+}
+
+[[gnu::always_inline]] inline NodePack<double> gather_doubles(const NodeRecord<double>* records,
+                                                              const std::uint32_t* offset) {
+  Lanes<double>::Vector z[4];
+  for (int q = 0; q < 4; ++q) {
+    const __m256d a = _mm256_load_pd(record_at(records, offset[q]));
+    const __m256d b = _mm256_load_pd(record_at(records, offset[q + 4]));
+    z[q] = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+  const Lanes<double>::Vector xu01 = __builtin_shufflevector(z[0], z[1], 0, 8, 2, 10, 4, 12, 6, 14),
+                              xu23 = __builtin_shufflevector(z[2], z[3], 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes<double>::Vector yv01 = __builtin_shufflevector(z[0], z[1], 1, 9, 3, 11, 5, 13, 7, 15),
+                              yv23 = __builtin_shufflevector(z[2], z[3], 1, 9, 3, 11, 5, 13, 7, 15);
+  const __m512i low = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0);
+  const __m512i high = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
+  return {Lanes<double>(_mm512_permutex2var_pd(xu01, low, xu23)),
+          Lanes<double>(_mm512_permutex2var_pd(yv01, low, yv23)),
+          Lanes<double>(_mm512_permutex2var_pd(xu01, high, xu23)),
+          Lanes<double>(_mm512_permutex2var_pd(yv01, high, yv23))};
+}
+
+#elif defined(__AVX2__) && defined(__FMA__)
+
+[[gnu::always_inline]] inline NodePack<float> gather_floats(const NodeRecord<float>* records,
+                                                            const std::uint32_t* offset) {
+  __m256 row[4];
+  for (int q = 0; q < 4; ++q) {
+    row[q] =
+        _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(record_at(records, offset[q]))),
+                             _mm_load_ps(record_at(records, offset[q + 4])), 1);
+  }
+  const __m256 xy01 = _mm256_unpacklo_ps(row[0], row[1]), xy23 = _mm256_unpacklo_ps(row[2], row[3]);
+  const __m256 uv01 = _mm256_unpackhi_ps(row[0], row[1]), uv23 = _mm256_unpackhi_ps(row[2], row[3]);
+  return {Lanes<float>(_mm256_shuffle_ps(xy01, xy23, 0x44)),
+          Lanes<float>(_mm256_shuffle_ps(xy01, xy23, 0xee)),
+          Lanes<float>(_mm256_shuffle_ps(uv01, uv23, 0x44)),
+          Lanes<float>(_mm256_shuffle_ps(uv01, uv23, 0xee))};
+}
+
+[[gnu::always_inline]] inline NodePack<double> gather_doubles(const NodeRecord<double>* records,
+                                                              const std::uint32_t* offset) {
+  __m256d row[4];
+  for (int q = 0; q < 4; ++q) row[q] = _mm256_load_pd(record_at(records, offset[q]));
+  const __m256d xu01 = _mm256_unpacklo_pd(row[0], row[1]);
+  const __m256d xu23 = _mm256_unpacklo_pd(row[2], row[3]);
+  const __m256d yv01 = _mm256_unpackhi_pd(row[0], row[1]);
+  const __m256d yv23 = _mm256_unpackhi_pd(row[2], row[3]);
+  return {Lanes<double>(_mm256_permute2f128_pd(xu01, xu23, 0x20)),
+          Lanes<double>(_mm256_permute2f128_pd(yv01, yv23, 0x20)),
+          Lanes<double>(_mm256_permute2f128_pd(xu01, xu23, 0x31)),
+          Lanes<double>(_mm256_permute2f128_pd(yv01, yv23, 0x31))};
+}
+
 #endif
 
 }  // namespace detail
 
-/// Gathers the records node[0 .. width) into packs.
+/// Gathers the records at `width` offsets into packs.
 template <class T>
-inline NodePack<T> gather(const NodeRecord<T>* records, const std::uint32_t* node) {
-#if defined(__AVX2__)
-  if constexpr (sizeof(T) == 4) {
-    typename Lanes<T>::Vector row[4];
-    for (int q = 0; q < 4; ++q) {
-      const auto a = detail::load_record(records, node[q]);
-      const auto b = detail::load_record(records, node[q + 4]);
-      const auto ab = __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
-#if defined(__AVX512F__)
-      const auto c = detail::load_record(records, node[q + 8]);
-      const auto d = detail::load_record(records, node[q + 12]);
-      const auto cd = __builtin_shufflevector(c, d, 0, 1, 2, 3, 4, 5, 6, 7);
-      row[q] =
-          __builtin_shufflevector(ab, cd, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+[[gnu::always_inline]] inline NodePack<T> gather(const NodeRecord<T>* records,
+                                                 const std::uint32_t* offset) {
+#if defined(__AVX2__) && defined(__FMA__)
+  if constexpr (sizeof(T) == 4) return detail::gather_floats(records, offset);
+  if constexpr (sizeof(T) == 8) return detail::gather_doubles(records, offset);
 #else
-      row[q] = ab;
-#endif
-    }
-    return detail::transpose(row);
-  }
-#endif
-  alignas(register_bytes) T x[Lanes<T>::width], y[Lanes<T>::width], vx[Lanes<T>::width],
-      vy[Lanes<T>::width];
+  NodePack<T> pack;
   for (int l = 0; l < Lanes<T>::width; ++l) {
-    const NodeRecord<T>& record = records[node[l]];
-    x[l] = record.x;
-    y[l] = record.y;
-    vx[l] = record.vx;
-    vy[l] = record.vy;
+    const T* record = detail::record_at(records, offset[l]);
+    pack.x.v[l] = record[0];
+    pack.y.v[l] = record[1];
+    pack.vx.v[l] = record[2];
+    pack.vy.v[l] = record[3];
   }
-  return {Lanes<T>::load(x), Lanes<T>::load(y), Lanes<T>::load(vx), Lanes<T>::load(vy)};
+  return pack;
+#endif
 }
 
 /// The `width` consecutive records from `records` on.
 template <class T>
-inline NodePack<T> load(const NodeRecord<T>* records) {
-  std::uint32_t node[Lanes<T>::width];
-  for (int l = 0; l < Lanes<T>::width; ++l) node[l] = static_cast<std::uint32_t>(l);
-  return gather(records, node);
+[[gnu::always_inline]] inline NodePack<T> load(const NodeRecord<T>* records) {
+  std::uint32_t offset[Lanes<T>::width];
+  for (std::uint32_t l = 0; l < Lanes<T>::width; ++l) offset[l] = record_offset<T>(l);
+  return gather(records, offset);
 }
 
 /// Writes packs as consecutive records.
 template <class T>
-inline void scatter(const NodePack<T>& pack, NodeRecord<T>* records) {
+[[gnu::always_inline]] inline void store(const NodePack<T>& pack, NodeRecord<T>* records) {
+#if defined(__AVX512F__)
+  if constexpr (sizeof(T) == 4) {
+    const detail::Floats xy_low = detail::interleave_low(pack.x.v, pack.y.v);
+    const detail::Floats xy_high = detail::interleave_high(pack.x.v, pack.y.v);
+    const detail::Floats uv_low = detail::interleave_low(pack.vx.v, pack.vy.v);
+    const detail::Floats uv_high = detail::interleave_high(pack.vx.v, pack.vy.v);
+    const detail::Floats row[4] = {
+        detail::low_pairs(xy_low, uv_low), detail::high_pairs(xy_low, uv_low),
+        detail::low_pairs(xy_high, uv_high), detail::high_pairs(xy_high, uv_high)};
+    for (int q = 0; q < 4; ++q) {
+      _mm_store_ps(&records[q].x, __builtin_shufflevector(row[q], row[q], 0, 1, 2, 3));
+      _mm_store_ps(&records[q + 4].x, __builtin_shufflevector(row[q], row[q], 4, 5, 6, 7));
+      _mm_store_ps(&records[q + 8].x, __builtin_shufflevector(row[q], row[q], 8, 9, 10, 11));
+      _mm_store_ps(&records[q + 12].x, __builtin_shufflevector(row[q], row[q], 12, 13, 14, 15));
+    }
+    return;
+  }
+#endif
   for (int l = 0; l < Lanes<T>::width; ++l) {
     records[l] = {pack.x[l], pack.y[l], pack.vx[l], pack.vy[l]};
   }
