@@ -31,8 +31,9 @@ std::vector<int> apportion(std::span<const double> shares, int seats) {
   }
   std::vector<std::size_t> order(shares.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return quota[a] > quota[b]; });
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return quota[a] != quota[b] ? quota[a] > quota[b] : a < b;
+  });
   int left = seats - std::accumulate(parts.begin(), parts.end(), 0);
   for (std::size_t i = 0; left > 0; i = (i + 1) % order.size(), --left) ++parts[order[i]];
   return parts;

@@ -16,8 +16,10 @@ std::vector<std::vector<int>> ranked_members(const PopulationState& state,
     members[position.at(state.individuals[i].species)].push_back(static_cast<int>(i));
   }
   for (std::vector<int>& of_species : members) {
-    std::stable_sort(of_species.begin(), of_species.end(), [&](int a, int b) {
-      return fitness[static_cast<std::size_t>(a)] > fitness[static_cast<std::size_t>(b)];
+    std::sort(of_species.begin(), of_species.end(), [&](int a, int b) {
+      const double of_a = fitness[static_cast<std::size_t>(a)];
+      const double of_b = fitness[static_cast<std::size_t>(b)];
+      return of_a != of_b ? of_a > of_b : a < b;
     });
   }
   return members;
