@@ -30,7 +30,7 @@ inline void actuate(std::span<const Edge> springs, std::span<const double> rest_
                     const Oscillators& oscillators, double amplitude, double t,
                     std::span<double> length) {
   for (std::size_t s = 0; s < springs.size(); ++s) {
-    const auto [i, j] = springs[s];
+    const auto [i, j] = places(springs[s]);
     const double both = oscillation(t, oscillators.period[i], oscillators.phase[i]) +
                         oscillation(t, oscillators.period[j], oscillators.phase[j]);
     length[s] = rest_length[s] * (1 + amplitude * both);

@@ -13,7 +13,8 @@ namespace metamorph::kernels::reference {
 /// The direction of the edge does not matter. An edge of length zero exerts no force.
 inline void add_drag_forces(std::span<const Edge> outline, double normal, double tangential,
                             const Nodes& nodes, const Forces& forces) {
-  for (const auto& [i, j] : outline) {
+  for (const Edge& edge : outline) {
+    const auto [i, j] = places(edge);
     const double dx = nodes.x[j] - nodes.x[i];
     const double dy = nodes.y[j] - nodes.y[i];
     const double length = std::sqrt(dx * dx + dy * dy);

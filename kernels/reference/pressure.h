@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -19,7 +20,7 @@ struct PressureCells {
 /// Signed area of a triangle, positive when counter-clockwise.
 inline double signed_area(const Triangle& triangle, std::span<const double> x,
                           std::span<const double> y) {
-  const auto [a, b, c] = triangle;
+  const auto [a, b, c] = places(triangle);
   return ((x[b] - x[a]) * (y[c] - y[a]) - (x[c] - x[a]) * (y[b] - y[a])) / 2;
 }
 
@@ -30,13 +31,13 @@ inline void add_pressure_forces(const PressureCells& cells, double pressure, con
                                 const Forces& forces) {
   for (std::size_t t = 0; t < cells.triangles.size(); ++t) {
     if (cells.rest_area[t] < cells.min_area) continue;
-    const Triangle& triangle = cells.triangles[t];
-    const double area = signed_area(triangle, nodes.x, nodes.y);
+    const std::array<std::size_t, 3> corners = places(cells.triangles[t]);
+    const double area = signed_area(cells.triangles[t], nodes.x, nodes.y);
     const double p = pressure * (cells.rest_area[t] / area - 1);
-    for (int corner = 0; corner < 3; ++corner) {
-      const int i = triangle[corner];
-      const int next = triangle[(corner + 1) % 3];
-      const int last = triangle[(corner + 2) % 3];
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::size_t i = corners[corner];
+      const std::size_t next = corners[(corner + 1) % 3];
+      const std::size_t last = corners[(corner + 2) % 3];
       forces.x[i] += p * (nodes.y[next] - nodes.y[last]) / 2;
       forces.y[i] += p * (nodes.x[last] - nodes.x[next]) / 2;
     }

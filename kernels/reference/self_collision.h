@@ -26,11 +26,11 @@ struct ClosestPoint {
 
 inline ClosestPoint closest_point(int node, const Edge& edge, std::span<const double> x,
                                   std::span<const double> y) {
-  const auto [a, b] = edge;
+  const auto [a, b, n] = places<3>({edge[0], edge[1], node});
   const double ex = x[b] - x[a];
   const double ey = y[b] - y[a];
-  const double px = x[node] - x[a];
-  const double py = y[node] - y[a];
+  const double px = x[n] - x[a];
+  const double py = y[n] - y[a];
   const double squared = ex * ex + ey * ey;
   ClosestPoint point;
   if (squared > 0) point.place = std::clamp((px * ex + py * ey) / squared, 0.0, 1.0);
@@ -78,9 +78,9 @@ inline void add_collision_forces(const CollisionPairs& pairs, double stiffness, 
       const ClosestPoint point = closest_point(node, pairs.edges[e], nodes.x, nodes.y);
       if (point.gap >= threshold || point.gap == 0) continue;
       const double size = stiffness * (threshold - point.gap) / point.gap;
-      const auto [a, b] = pairs.edges[e];
-      forces.x[node] += size * point.dx;
-      forces.y[node] += size * point.dy;
+      const auto [a, b, i] = places<3>({pairs.edges[e][0], pairs.edges[e][1], node});
+      forces.x[i] += size * point.dx;
+      forces.y[i] += size * point.dy;
       forces.x[a] -= (1 - point.place) * size * point.dx;
       forces.y[a] -= (1 - point.place) * size * point.dy;
       forces.x[b] -= point.place * size * point.dx;

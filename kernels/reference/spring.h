@@ -15,7 +15,7 @@ inline void add_spring_forces(std::span<const Edge> springs, std::span<const dou
                               double stiffness, double damping, const Nodes& nodes,
                               const Forces& forces) {
   for (std::size_t s = 0; s < springs.size(); ++s) {
-    const auto [i, j] = springs[s];
+    const auto [i, j] = places(springs[s]);
     const double dx = nodes.x[j] - nodes.x[i];
     const double dy = nodes.y[j] - nodes.y[i];
     const double distance = std::sqrt(dx * dx + dy * dy);
@@ -36,7 +36,7 @@ inline double spring_energy(std::span<const Edge> springs, std::span<const doubl
                             double stiffness, const Nodes& nodes) {
   double energy = 0;
   for (std::size_t s = 0; s < springs.size(); ++s) {
-    const auto [i, j] = springs[s];
+    const auto [i, j] = places(springs[s]);
     const double dx = nodes.x[j] - nodes.x[i];
     const double dy = nodes.y[j] - nodes.y[i];
     const double stretch = std::sqrt(dx * dx + dy * dy) - length[s];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 
 /// The plain double-precision physics of one animat (MODEL section 4): the independent opponent of
@@ -11,6 +12,14 @@ namespace metamorph::kernels::reference {
 
 using Edge = std::array<int, 2>;
 using Triangle = std::array<int, 3>;
+
+/// Node numbers as places in arrays.
+template <std::size_t n>
+constexpr std::array<std::size_t, n> places(const std::array<int, n>& nodes) {
+  std::array<std::size_t, n> result{};
+  for (std::size_t i = 0; i < n; ++i) result[i] = static_cast<std::size_t>(nodes[i]);
+  return result;
+}
 
 /// Where the nodes are and how fast they move; all [nodes].
 struct Nodes {

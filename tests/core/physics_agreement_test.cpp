@@ -186,7 +186,7 @@ TEST_P(Agreement, OnWhatFails) {
   // reference sees later, as an inversion, but never misses what the reference sees.
   int failures = 0, runs = 0;
   for (const double amplitude : {0.1, 0.8, 1.5, 3.0, 10.0})
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
       core::Body body = blob_body(30, seed);
       for (double& period : body.period) period /= 10;
       core::Scene scene = core::water_scene();
