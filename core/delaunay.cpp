@@ -10,6 +10,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/predicates.h"
+
 namespace metamorph::core {
 namespace {
 
@@ -27,7 +29,19 @@ std::array<Index, 3> lowest_first(std::array<Index, 3> face) {
   return face;
 }
 
+Kernel::Point_2 exact(Point p) { return {p.x, p.y}; }
+
 }  // namespace
+
+int exact_orientation(Point a, Point b, Point c) {
+  return static_cast<int>(CGAL::orientation(exact(a), exact(b), exact(c)));
+}
+
+int exact_in_circle(Point a, Point b, Point c, Point d) {
+  static const Delaunay perturbation;
+  return static_cast<int>(
+      perturbation.side_of_oriented_circle(exact(a), exact(b), exact(c), exact(d), true));
+}
 
 void triangulate(std::span<const double> x, std::span<const double> y, Triangulation& result) {
   assert(x.size() == y.size());

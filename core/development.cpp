@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -44,12 +45,12 @@ class Developer {
   std::vector<Embryo> operator()(const Network& network, std::span<const int> stages) {
     control_.set_network(network);
     colony_.reset();
+    neighbourhood_.clear();
+    previous_.clear();
     status_ = Status::ok;
     std::vector<Embryo> result;
     result.reserve(stages.size());
     for (int step = 0; result.size() < stages.size(); ++step) {
-      // Taking an embryo out renews the neighbours for itself; a step that is none of theirs goes
-      // on with the old ones.
       while (result.size() < stages.size() && step == stages[result.size()]) {
         result.push_back(embryo(step));
       }
@@ -79,7 +80,9 @@ class Developer {
       x_.clear();
       y_.clear();
     }
-    neighbourhood.renew(x_, y_, rules_.link_limit);
+    previous_.resize(at(colony_.count), -1);
+    neighbourhood.renew(x_, y_, previous_, rules_.link_limit);
+    std::iota(previous_.begin(), previous_.end(), 0);
   }
 
   /// One update of the control network. True if cells were born or died.
@@ -100,8 +103,10 @@ class Developer {
                                        next_x_[at(to)] = next_x_[at(from)];
                                        next_y_[at(to)] = next_y_[at(from)];
                                        willing_[at(to)] = willing_[at(from)];
+                                       previous_[at(to)] = from;
                                      });
     const int mothers = colony_.count;
+    previous_.resize(at(mothers));
     for (int i = 0; i < mothers; ++i) {
       if (!willing_[at(i)]) continue;
       colony_.heading_x[at(i)] = next_x_[at(i)];
@@ -140,8 +145,12 @@ class Developer {
 
   Embryo embryo(int step) {
     using C = Control<T>;
-    renew(stage_neighbourhood_);
-    control_.evaluate(rules_, step, colony_, stage_neighbourhood_);
+    // Between two renewals development goes on with the neighbours of the earlier one.
+    const bool renewal_due = step % rules_.renew_interval == 0;
+    if (!renewal_due) stage_neighbourhood_ = neighbourhood_;
+    Neighbourhood& neighbourhood = renewal_due ? neighbourhood_ : stage_neighbourhood_;
+    renew(neighbourhood);
+    control_.evaluate(rules_, step, colony_, neighbourhood);
     Embryo embryo;
     embryo.step = step;
     embryo.status = colony_.count == 0 && status_ == Status::ok ? Status::empty : status_;
@@ -162,8 +171,8 @@ class Developer {
       embryo.period.push_back(rules_.period_min + share * (rules_.period_max - rules_.period_min));
       embryo.phase.push_back(std::numbers::pi * static_cast<double>(control_(C::phase, i)));
     }
-    embryo.links = stage_neighbourhood_.links();
-    embryo.faces = stage_neighbourhood_.faces();
+    embryo.links = neighbourhood.links();
+    embryo.faces = neighbourhood.faces();
     return embryo;
   }
 
@@ -177,6 +186,7 @@ class Developer {
   std::vector<T> next_x_, next_y_;  // headings after the update, if willing
   std::vector<char> willing_;       // not inhibited
   std::vector<double> x_, y_;       // positions at the last renewal
+  std::vector<Index> previous_;     // which cell each was at the last renewal, -1 if none
 };
 
 }  // namespace

@@ -18,6 +18,12 @@ class LinkSelection {
               std::span<const std::array<Index, 2>> edges,
               std::vector<std::array<Index, 2>>& links);
 
+  /// Whether select() with the edges and the limit of last time would choose the same links again,
+  /// as far as can be told without sorting: every edge is on the same side of the limit as then,
+  /// and the short ones suffice.
+  bool still_holds(std::span<const double> x, std::span<const double> y, double limit,
+                   std::span<const std::array<Index, 2>> edges) const;
+
  private:
   struct LongEdge {
     double square;
@@ -27,6 +33,8 @@ class LinkSelection {
 
   std::vector<Index> parent_;
   std::vector<LongEdge> long_edges_;
+  std::vector<char> is_short_;  // [edges]
+  bool short_ones_suffice_ = false;
 };
 
 }  // namespace metamorph::core

@@ -5,9 +5,12 @@
 
 namespace metamorph::core {
 
-void Neighbourhood::renew(std::span<const double> x, std::span<const double> y, double link_limit) {
-  triangulate(x, y, triangulation_);
-  selection_.select(x, y, link_limit, triangulation_.edges, links_);
+void Neighbourhood::renew(std::span<const double> x, std::span<const double> y,
+                          std::span<const Index> previous, double link_limit) {
+  triangulation_.update(x, y, previous);
+  const auto& edges = triangulation_.edges();
+  if (!triangulation_.changed() && selection_.still_holds(x, y, link_limit, edges)) return;
+  selection_.select(x, y, link_limit, edges, links_);
   list_neighbours(x.size());
   fill_slots(static_cast<int>(x.size()));
 }

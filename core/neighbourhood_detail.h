@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/delaunay.h"
 #include "core/links.h"
+#include "core/triangulation_repair.h"
 #include "kernels/cell_mechanics.h"
 
 namespace metamorph::core {
@@ -14,11 +14,15 @@ namespace metamorph::core {
 /// cell's ascending list of neighbours, and the same lists arranged for the mechanics kernel.
 class Neighbourhood {
  public:
-  /// Renews everything from the centres' positions (finite).
-  void renew(std::span<const double> x, std::span<const double> y, double link_limit);
+  /// Starts a new embryo.
+  void clear() { triangulation_.clear(); }
+
+  /// Renews everything from the centres' positions (finite). previous: see TriangulationRepair.
+  void renew(std::span<const double> x, std::span<const double> y, std::span<const Index> previous,
+             double link_limit);
 
   const std::vector<std::array<Index, 2>>& links() const { return links_; }
-  const std::vector<std::array<Index, 3>>& faces() const { return triangulation_.faces; }
+  std::vector<std::array<Index, 3>> faces() const { return triangulation_.faces(); }
 
   /// Linked neighbours of a cell, ascending.
   std::span<const int> of(Index cell) const {
@@ -35,7 +39,7 @@ class Neighbourhood {
   void list_neighbours(std::size_t cells);
   void fill_slots(int cells);
 
-  Triangulation triangulation_;
+  TriangulationRepair triangulation_;
   LinkSelection selection_;
   std::vector<std::array<Index, 2>> links_;
   std::vector<int> start_, neighbour_;            // lists of neighbours, one after the other

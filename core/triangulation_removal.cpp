@@ -1,0 +1,70 @@
+#include <cstddef>
+
+#include "core/triangulation_repair.h"
+
+namespace metamorph::core {
+namespace {
+
+constexpr Index ghost = GhostMesh::ghost;
+
+}  // namespace
+
+/// Takes out the points that are no longer there and renames the others. The points are still at
+/// their old positions, where the mesh is a triangulation.
+bool TriangulationRepair::remove_dead(std::span<const Index> previous) {
+  name_.assign(points_.size(), -1);
+  Index survivors = 0;
+  for (const Index old : previous) {
+    if (old >= 0) name_[static_cast<std::size_t>(old)] = survivors++;
+  }
+  if (static_cast<std::size_t>(survivors) == points_.size()) return true;
+  if (survivors < 3) return false;
+  changed_ = true;
+  for (std::size_t v = 0; v < name_.size(); ++v) {
+    if (name_[v] < 0 && !remove(static_cast<Index>(v))) return false;
+  }
+  mesh_.rename(name_);
+  return true;
+}
+
+/// Flips edges away from a vertex until it has three neighbours, then drops it.
+bool TriangulationRepair::remove(Index vertex) {
+  for (;;) {
+    int start = 0;
+    while (mesh_.corner_of(start, vertex) < 0) ++start;
+    int degree = 0;
+    int f = start;
+    do {
+      f = mesh_.across(f, GhostMesh::next(mesh_.corner_of(f, vertex)));
+      ++degree;
+    } while (f != start);
+    if (degree == 3) {
+      mesh_.dissolve({start, mesh_.corner_of(start, vertex)});
+      return true;
+    }
+    if (!shorten_ring(vertex, start)) return false;
+  }
+}
+
+/// Flips one edge between a vertex and its ring: where an ear can be cut off the ring, or else, on
+/// the hull, where the vertex gives up its first face there.
+bool TriangulationRepair::shorten_ring(Index vertex, int start) {
+  Side hull_side = {-1, -1};
+  int f = start;
+  do {
+    // f = (vertex, p, u), its successor around the vertex (vertex, u, q).
+    const int corner = mesh_.corner_of(f, vertex);
+    const Side edge = {f, GhostMesh::next(corner)};
+    const auto [u, same, p, q] = mesh_.around(edge);
+    if (u != ghost && p != ghost && q != ghost) {
+      if (orientation_of(p, u, q) > 0 && orientation_of(p, q, vertex) > 0 && flip(edge))
+        return true;
+    } else if (u != ghost && p == ghost) {
+      hull_side = edge;
+    }
+    f = mesh_.across(f, GhostMesh::next(corner));
+  } while (f != start);
+  return hull_side.face >= 0 && flip(hull_side);
+}
+
+}  // namespace metamorph::core
