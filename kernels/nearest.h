@@ -45,10 +45,11 @@ int nearest_squared(const Real* points, std::ptrdiff_t stride, std::ptrdiff_t co
     constexpr std::ptrdiff_t group = 16;
     for (std::ptrdiff_t g = 0; g < size; g += group) {
       const std::ptrdiff_t end = std::min(size, g + group);
-      Real least = infinity;
-#pragma omp simd reduction(min : least)
-      for (std::ptrdiff_t i = g; i < end; ++i) least = square[i] < least ? square[i] : least;
-      if (!(least < smallest[k - 1])) continue;
+      const Real limit = smallest[k - 1];
+      int any = 0;
+#pragma omp simd reduction(| : any)
+      for (std::ptrdiff_t i = g; i < end; ++i) any |= square[i] < limit;
+      if (any == 0) continue;
       for (std::ptrdiff_t i = g; i < end; ++i) {
         if (!(square[i] < smallest[k - 1])) continue;
         int at = k - 1;

@@ -93,11 +93,14 @@ clang_tier() {
 }
 
 address_tier() {
-  if ! can_run c++ -fsanitize=address,undefined; then
+  local compiler=clang++-19
+  command -v $compiler >/dev/null || compiler=c++
+  if ! can_run $compiler -fsanitize=address,undefined; then
     skip 'address and undefined behaviour sanitizers' 'they do not run on this machine'
     return
   fi
-  part 'build with address and undefined behaviour sanitizers' build_all asan || return
+  part 'build with address and undefined behaviour sanitizers' \
+    build_all asan -DCMAKE_CXX_COMPILER=$compiler || return
   run_ctest 'tests under address and undefined behaviour sanitizers' asan \
     --label-regex short --label-exclude unsanitized
 }
