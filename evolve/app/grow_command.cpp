@@ -164,8 +164,7 @@ void grow_command(const GrowOptions& options) {
 void add_grow_command(CLI::App& app) {
   const auto options = std::make_shared<GrowOptions>();
   CLI::App* command = app.add_subcommand(
-      "grow",
-      "Develops one genome; writes embryos, bodies and a picture at chosen steps");
+      "grow", "Develops one genome; writes embryos, bodies and a picture at chosen steps");
   command->add_option("GENOME", options->genome, "Genome file (metamorph-genome/1)")
       ->required()
       ->option_text("GENOME.json");
@@ -177,12 +176,12 @@ void add_grow_command(CLI::App& app) {
                    "Directory for embryo-STEP.json, body-STEP.json and the picture")
       ->option_text("DIRECTORY [named after the genome]");
   command->add_option("--picture", options->picture, "Kind of picture")
-      ->check(CLI::IsMember({"svg", "png", "pdf", "none"}).description(""))
+      ->check(one_of({"svg", "png", "pdf", "none"}))
       ->option_text("svg|png|pdf|none [svg]");
   command
       ->add_option("--larva-steps", options->larva_steps,
                    "Cells born from this step on are drawn red")
-      ->check(CLI::Range(1, 1000000))
+      ->check(integer_from(1, 1000000))
       ->option_text("STEP [half of development]");
   add_development_options(*command, options->rules, options->min_cells);
   command->add_flag("--overwrite", options->overwrite, "Replace files that exist");

@@ -1,44 +1,84 @@
 #include "evolve/app/options.h"
 
-#include <map>
-#include <string>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <charconv>
+#include <system_error>
+#include <utility>
 
 namespace metamorph::evolve {
 namespace {
 
-using MakeScene = core::Scene (*)();
+struct SceneEntry {
+  const char* name;
+  core::Scene (*make)();
+};
+constexpr std::array<SceneEntry, 4> scenes = {{{"water", core::water_scene},
+                                               {"land", core::land_scene},
+                                               {"land-right", core::land_right_scene},
+                                               {"slope", core::slope_scene}}};
 
-const std::map<std::string, MakeScene>& scenes() {
-  static const std::map<std::string, MakeScene> table = {{"land", core::land_scene},
-                                                         {"land-right", core::land_right_scene},
-                                                         {"slope", core::slope_scene},
-                                                         {"water", core::water_scene}};
-  return table;
+/// The whole text as a number of type T within limits, or what was expected.
+template <class T>
+CLI::Validator number_check(T low, T high, const char* kind) {
+  return CLI::Validator(
+      [=](const std::string& text) {
+        T value{};
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool good = error == std::errc() && end == text.data() + text.size();
+        if (good && value >= low && value <= high) return std::string();
+        return fmt::format("{}: expected {} from {} to {}", text, kind, low, high);
+      },
+      "");
 }
 
-/// An option that takes one of a few names for a value.
+/// An option that takes one of a few names for a value; `names` starts with the default.
 template <class T>
 void add_choice(CLI::App& command, const std::string& option, T& value,
-                std::map<std::string, T> names, const std::string& type,
-                const std::string& default_name, const std::string& help) {
-  command.add_option(option, value, help)
-      ->transform(CLI::CheckedTransformer(std::move(names)).description(""))
-      ->option_text(type + " [" + default_name + "]");
+                const std::vector<std::pair<std::string, T>>& names, const std::string& help) {
+  std::vector<std::string> keys;
+  for (const auto& [name, meaning] : names) keys.push_back(name);
+  const auto set = [&value, names](const std::string& chosen) {
+    for (const auto& [name, meaning] : names) {
+      if (name == chosen) value = meaning;
+    }
+  };
+  command.add_option_function<std::string>(option, set, help)
+      ->check(one_of(keys))
+      ->option_text(fmt::format("{} [{}]", fmt::join(keys, "|"), keys.front()));
 }
 
 }  // namespace
 
+CLI::Validator one_of(std::vector<std::string> names) {
+  return CLI::Validator(
+      [names = std::move(names)](const std::string& text) {
+        if (std::find(names.begin(), names.end(), text) != names.end()) return std::string();
+        const auto last = names.end() - 1;
+        return fmt::format("{}: expected {} or {}", text, fmt::join(names.begin(), last, ", "),
+                           *last);
+      },
+      "");
+}
+
+CLI::Validator integer_from(int low, int high) { return number_check(low, high, "an integer"); }
+
+CLI::Validator number_from(double low, double high) { return number_check(low, high, "a number"); }
+
 void add_development_options(CLI::App& command, core::DevelopmentRules& rules, int& min_cells) {
   command.add_option("--steps-of-development", rules.steps, "Length of the whole development")
-      ->check(CLI::Range(1, 1000000))
+      ->check(integer_from(1, 1000000))
       ->option_text("STEPS [1200]")
       ->group("Development");
   command.add_option("--max-cells", rules.max_cells, "Most cells alive at one time")
-      ->check(CLI::Range(1, 100000))
+      ->check(integer_from(1, 100000))
       ->option_text("N [256]")
       ->group("Development");
   command.add_option("--min-cells", min_cells, "Fewest cells of a body")
-      ->check(CLI::Range(3, 100000))
+      ->check(integer_from(3, 100000))
       ->option_text("N [8]")
       ->group("Development");
 }
@@ -46,21 +86,28 @@ void add_development_options(CLI::App& command, core::DevelopmentRules& rules, i
 void add_locomotion_options(CLI::App& command, core::LocomotionOptions& options) {
   using core::Method;
   using core::Precision;
-  add_choice(command, "--method", options.method,
-             {{"drift_kick_drift", Method::drift_kick_drift},
-              {"symplectic_euler", Method::symplectic_euler}},
-             "drift_kick_drift|symplectic_euler", "drift_kick_drift", "Integrator");
-  add_choice(command, "--precision", options.precision,
-             {{"float32", Precision::float32}, {"float64", Precision::float64}}, "float32|float64",
-             "float32", "Arithmetic");
+  add_choice<Method>(command, "--method", options.method,
+                     {{"drift_kick_drift", Method::drift_kick_drift},
+                      {"symplectic_euler", Method::symplectic_euler}},
+                     "Integrator");
+  add_choice<Precision>(command, "--precision", options.precision,
+                        {{"float32", Precision::float32}, {"float64", Precision::float64}},
+                        "Arithmetic");
 }
 
 void add_scene_option(CLI::App& command, std::string& name) {
+  std::vector<std::string> names;
+  for (const SceneEntry& entry : scenes) names.push_back(entry.name);
   command.add_option("--scene", name, "Environment")
-      ->check(CLI::IsMember(scenes()).description(""))
-      ->option_text("water|land|land-right|slope [water]");
+      ->check(one_of(names))
+      ->option_text(fmt::format("{} [{}]", fmt::join(names, "|"), name));
 }
 
-core::Scene scene_named(const std::string& name) { return scenes().at(name)(); }
+core::Scene scene_named(const std::string& name) {
+  const auto entry = std::find_if(scenes.begin(), scenes.end(),
+                                  [&](const SceneEntry& scene) { return scene.name == name; });
+  assert(entry != scenes.end());
+  return entry->make();
+}
 
 }  // namespace metamorph::evolve

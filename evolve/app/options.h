@@ -3,12 +3,19 @@
 // Options that several commands have.
 
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 #include "core/development.h"
 #include "core/locomotion.h"
 #include "core/scene.h"
 
 namespace metamorph::evolve {
+
+/// Checks of an option's value that say what was expected: "moon: expected water, land or slope".
+CLI::Validator one_of(std::vector<std::string> names);
+CLI::Validator integer_from(int low, int high);
+CLI::Validator number_from(double low, double high);
 
 /// The rules by which a genome develops.
 void add_development_options(CLI::App& command, core::DevelopmentRules& rules, int& min_cells);

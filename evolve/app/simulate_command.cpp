@@ -140,23 +140,25 @@ void add_simulate_command(CLI::App& app) {
                                          "Moves bodies in a scene and prints how far they got. "
                                          "Several files, or those of a directory, "
                                          "run as one batch; a genome is developed first.");
-  command->add_option("INPUT", options->inputs, "Body or genome files, or directories of them; genomes are developed first")
+  command
+      ->add_option("INPUT", options->inputs,
+                   "Body or genome files, or directories of them; genomes are developed first")
       ->required()
       ->option_text("FILE|DIRECTORY...");
   add_scene_option(*command, options->scene);
   command->add_option("--steps", options->run_steps, "Length of the run, in paper steps of 0.2")
-      ->check(CLI::Range(1, 100000000))
+      ->check(integer_from(1, 100000000))
       ->option_text("STEPS [3000]");
   command->add_option("--dt", options->step, "Step of the integrator, in time units")
-      ->check(CLI::Range(1e-6, 10.0))
+      ->check(number_from(1e-6, 10))
       ->option_text("TIME [0.2 in water, 0.1 on land]");
   add_locomotion_options(*command, options->locomotion);
   command->add_option("--threads", options->locomotion.threads, "Threads; 0 for all there are")
-      ->check(CLI::Range(0, 4096))
+      ->check(integer_from(0, 4096))
       ->option_text("N [0]");
   command
       ->add_option("--stage", options->stage, "Development step at which a genome's body is taken")
-      ->check(CLI::Range(1, 1000000))
+      ->check(integer_from(1, 1000000))
       ->option_text("STEP [end of development]")
       ->group("Development");
   add_development_options(*command, options->choice.rules, options->choice.min_cells);
@@ -165,7 +167,7 @@ void add_simulate_command(CLI::App& app) {
                    "Write the motion of a single body as CSV: step, time, node, x, y, vx, vy")
       ->option_text("FILE.csv");
   command->add_option("--every", options->every, "Integrator steps between two frames written")
-      ->check(CLI::Range(1, 100000000))
+      ->check(integer_from(1, 100000000))
       ->option_text("N [one paper step]");
   command->add_flag("--overwrite", options->overwrite, "Replace a file that exists");
   command->add_flag("--json", options->json, "Print one JSON object per body instead of a table");

@@ -1,0 +1,243 @@
+// The commands grow and simulate, run as a person would run them.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "core/locomotion.h"
+#include "evolve/files/animat_file.h"
+#include "evolve/files/body_file.h"
+#include "evolve/files/genome_file.h"
+#include "evolve/files/outcome_json.h"
+#include "tests/bodies.h"
+#include "tests/evolve/program.h"
+
+namespace metamorph::evolve {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using tests::Json;
+using tests::run_program;
+
+/// A genome without links: every output is 0, so no cell dies, all divide along the mean
+/// orientation of their neighbours, and the embryo is a row of cells along the x axis.
+Genome row_genome() {
+  Genome genome;
+  for (int id = 0; id < 13; ++id) {
+    genome.nodes.push_back({id, id < 6 ? NodeKind::input : NodeKind::output});
+  }
+  return genome;
+}
+
+/// As above, but the angle depends on the birth place: cells turn and fill the plane.
+Genome blob_genome() {
+  Genome genome = row_genome();
+  genome.links = {{1, 0, 7, 6.0}, {2, 1, 7, 5.0},  {3, 2, 7, -4.0},
+                  {4, 5, 7, 1.0}, {5, 1, 11, 3.0}, {6, 2, 12, 3.0}};
+  return genome;
+}
+
+/// The founder dies in the first update.
+Genome dead_genome() {
+  Genome genome = row_genome();
+  genome.links = {{1, 5, 8, 1.0}};
+  return genome;
+}
+
+std::vector<Json> json_lines(const std::string& text) {
+  std::vector<Json> result;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) result.push_back(Json::parse(line));
+  return result;
+}
+
+class Program : public ::testing::Test {
+ protected:
+  Program() {
+    write_genome(here() / "row.json", row_genome(), Overwrite::no);
+    write_genome(here() / "blob.json", blob_genome(), Overwrite::no);
+    write_genome(here() / "dead.json", dead_genome(), Overwrite::no);
+    write_body(here() / "disc.json", tests::disc_body(19), Overwrite::no);
+  }
+
+  const std::filesystem::path& here() const { return directory_.path(); }
+  tests::ProgramResult run(const std::string& arguments) const {
+    return run_program(here(), arguments);
+  }
+  void expect_fault(const std::string& arguments, const std::string& line) const {
+    const auto result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    EXPECT_THAT(result.err_lines(), ElementsAre(line)) << arguments;
+    EXPECT_EQ(result.out, "") << arguments;
+  }
+
+ private:
+  tests::TemporaryDirectory directory_;
+};
+
+TEST_F(Program, SaysWhatItCanDo) {
+  EXPECT_THAT(run("--version").out, StartsWith("metamorph "));
+  const auto help = run("--help");
+  EXPECT_EQ(help.exit_code, 0);
+  for (const char* command : {"grow", "simulate"}) {
+    EXPECT_THAT(help.out, HasSubstr(command));
+    EXPECT_EQ(run(std::string(command) + " --help").exit_code, 0);
+  }
+}
+
+TEST_F(Program, RefusesInOneLine) {
+  const std::string see = " (see metamorph simulate --help)";
+  expect_fault("simulate", "metamorph simulate: INPUT is required" + see);
+  expect_fault(
+      "simulate disc.json --scene moon",
+      "metamorph simulate: --scene: moon: expected water, land, land-right or slope" + see);
+  expect_fault("simulate disc.json --method euler",
+               "metamorph simulate: --method: euler: expected drift_kick_drift or "
+               "symplectic_euler" +
+                   see);
+  expect_fault("simulate disc.json --precision double",
+               "metamorph simulate: --precision: double: expected float32 or float64" + see);
+  expect_fault("simulate disc.json --dt 0",
+               "metamorph simulate: --dt: 0: expected a number from 1e-06 to 10" + see);
+  expect_fault("simulate disc.json --steps 1e3",
+               "metamorph simulate: --steps: 1e3: expected an integer from 1 to 100000000" + see);
+  expect_fault("simulate disc.json --stage 1300",
+               "--stage: 1300: expected at most 1200, the end of development");
+  expect_fault("simulate disc.json row.json --trajectory t.csv",
+               "--trajectory: 2 bodies: expected one");
+  expect_fault("grow row.json --at 10,1201",
+               "--at: 1201: expected steps from 0 to 1200, the end of development");
+  expect_fault("grow disc.json",
+               "disc.json: format: \"metamorph-body/1\": expected \"metamorph-genome/1\"");
+  expect_fault("grow nothing.json", "nothing.json: no such file: expected a file that can be read");
+  const auto none = run("");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_EQ(none.err_lines().size(), 1u);
+}
+
+TEST_F(Program, TellsTheFaultsOfAllFiles) {
+  write_file(here() / "half.json", "{\"format\": ", Overwrite::no);
+  write_file(here() / "other.json", "{\"format\": \"x\"}", Overwrite::no);
+  const auto result = run("simulate half.json other.json none.json disc.json");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err_lines(),
+              ElementsAre("half.json: line 1, column 12: the file ends: expected more JSON",
+                          "other.json: format: x: expected metamorph-body/1 or metamorph-genome/1",
+                          "none.json: no such file: expected a file that can be read"));
+}
+
+TEST_F(Program, GrowWritesTheStepsAskedFor) {
+  const auto result = run("grow row.json --steps-of-development 120 --at 120,60,0,60 --json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const auto lines = json_lines(result.out);
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[0]["step"], 0);
+  EXPECT_EQ(lines[0]["embryo_cells"], 1);
+  EXPECT_EQ(lines[2]["step"], 120);
+  EXPECT_EQ(lines[2]["status"], "no_body");  // a row has no triangle
+  const Json embryo = Json::parse(tests::text_of(here() / "row" / "embryo-0060.json"));
+  EXPECT_EQ(embryo["step"], 60);
+  EXPECT_EQ(embryo["cells"].size(), lines[1]["embryo_cells"].get<std::size_t>());
+  EXPECT_THAT(tests::text_of(here() / "row" / "development.svg"), HasSubstr("<svg"));
+}
+
+TEST_F(Program, GrowReplacesOnlyWhenTold) {
+  const std::string grow = "grow dead.json --out d --steps-of-development 60 --at 60";
+  EXPECT_EQ(run(grow).exit_code, 0);
+  const std::string before = tests::text_of(here() / "d" / "embryo-0060.json");
+  write_file(here() / "d" / "embryo-0060.json", "mine", Overwrite::yes);
+  const auto refused = run(grow);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err_lines(),
+              ElementsAre(StartsWith("d/embryo-0060.json: exists already: expected"),
+                          StartsWith("d/development.svg: exists already: expected")));
+  EXPECT_EQ(tests::text_of(here() / "d" / "embryo-0060.json"), "mine");
+  EXPECT_EQ(run(grow + " --overwrite").exit_code, 0);
+  EXPECT_EQ(tests::text_of(here() / "d" / "embryo-0060.json"), before);
+}
+
+TEST_F(Program, ABodyMovesAsItsGenomeDoes) {
+  const std::string rules = " --steps-of-development 300 --json";
+  const auto grown = json_lines(run("grow blob.json --out b --at 300" + rules).out);
+  ASSERT_EQ(grown.size(), 1u);
+  ASSERT_EQ(grown[0]["status"], "ok") << grown[0];
+  const auto result =
+      run("simulate blob.json b/body-0300.json dead.json row.json --steps 200" + rules);
+  const auto lines = json_lines(result.out);
+  ASSERT_EQ(lines.size(), 4u) << result.err;
+  Json genome = lines[0], body = lines[1];
+  EXPECT_EQ(genome["file"], "blob.json");
+  EXPECT_EQ(body["file"], "b/body-0300.json");
+  genome.erase("file");
+  body.erase("file");
+  EXPECT_EQ(genome, body);
+  EXPECT_EQ(lines[2]["status"], "empty");
+  EXPECT_EQ(lines[3]["status"], "no_body");
+}
+
+TEST_F(Program, SimulatePrintsWhatTheLibrarySays) {
+  const core::Body body = tests::disc_body(19);
+  core::Scene scene = core::land_scene();
+  scene.step = 0.05;
+  scene.run_steps = 100;
+  const core::LocomotionTask task = {&body, &scene};
+  const core::LocomotionOptions options = {core::Precision::float64, core::Method::symplectic_euler,
+                                           1};
+  const core::Outcome outcome = core::simulate({&task, 1}, options).front();
+  const auto result =
+      run("simulate disc.json --scene land --dt 0.05 --steps 100 --precision float64 --method "
+          "symplectic_euler --threads 2 --json");
+  EXPECT_EQ(result.out, outcome_json({{"file", "disc.json"}, {"scene", "land"}}, outcome) + "\n");
+  const Json line = Json::parse(result.out);
+  EXPECT_EQ(line["status"], core::name(outcome.status));
+  EXPECT_EQ(line["distance"].get<double>(), outcome.distance);
+  EXPECT_EQ(line["mean_position"].get<std::vector<double>>(),
+            std::vector(outcome.mean_position.begin(), outcome.mean_position.end()));
+  EXPECT_EQ(line["steps"], outcome.steps);
+  EXPECT_EQ(line["cells"], 19);
+}
+
+TEST_F(Program, ADirectoryIsOneBatchWithoutItsEmbryos) {
+  EXPECT_EQ(run("grow blob.json --out many --at 0,300 --steps-of-development 300").exit_code, 0);
+  write_body(here() / "many" / "a.json", tests::disc_body(7), Overwrite::no);
+  const auto lines = json_lines(run("simulate many --steps 10 --json").out);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0]["file"], "many/a.json");
+  EXPECT_EQ(lines[1]["file"], "many/body-0300.json");
+  const std::filesystem::path none = here() / "none";
+  std::filesystem::create_directory(none);
+  expect_fault("simulate none", "none: expected body or genome files (*.json) in it");
+}
+
+TEST_F(Program, TheTrajectoryEndsWhereTheOutcomeSays) {
+  const auto result =
+      run("simulate disc.json --steps 50 --every 25 --precision float64 --trajectory t.csv --json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  std::istringstream csv(tests::text_of(here() / "t.csv"));
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line, "step,time,node,x,y,vx,vy");
+  std::vector<std::array<double, 2>> mean;  // of frames 0, 25, 50
+  for (int row = 0; std::getline(csv, line); ++row) {
+    std::vector<double> values;
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) values.push_back(std::stod(cell));
+    ASSERT_EQ(values.size(), 7u);
+    EXPECT_EQ(values[0], 25 * (row / 19));
+    EXPECT_EQ(values[2], row % 19);
+    if (row % 19 == 0) mean.push_back({0, 0});
+    mean.back()[0] += values[3] / 19;
+    mean.back()[1] += values[4] / 19;
+  }
+  ASSERT_EQ(mean.size(), 3u);
+  const Json outcome = Json::parse(result.out);
+  // Round-off of sums of 19 positions below 3 d.
+  EXPECT_NEAR(outcome["mean_position"][0].get<double>(), mean[2][0] - mean[0][0], 1e-13);
+  EXPECT_NEAR(outcome["mean_position"][1].get<double>(), mean[2][1] - mean[0][1], 1e-13);
+}
+
+}  // namespace
+}  // namespace metamorph::evolve

@@ -1,0 +1,48 @@
+#pragma once
+
+// Runs the program as a person would.
+
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/evolve/files.h"
+
+namespace metamorph::tests {
+
+struct ProgramResult {
+  int exit_code = -1;
+  std::string out, err;
+
+  std::vector<std::string> err_lines() const {
+    std::vector<std::string> lines;
+    std::istringstream stream(err);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+  }
+};
+
+inline std::string text_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// Runs `metamorph ARGUMENTS` in `directory`; the arguments are shell text.
+inline ProgramResult run_program(const std::filesystem::path& directory,
+                                 const std::string& arguments) {
+  const TemporaryDirectory scratch;
+  const auto out = scratch.path() / "out", err = scratch.path() / "err";
+  const std::string command = "cd '" + directory.string() + "' && '" METAMORPH_PROGRAM "' " +
+                              arguments + " >'" + out.string() + "' 2>'" + err.string() + "'";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
+}
+
+}  // namespace metamorph::tests
