@@ -1,0 +1,245 @@
+// The built program as a person meets it: killed, interrupted, without room, with wrong input.
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <thread>
+
+#include "evolve/files/genome_file.h"
+#include "evolve/run/run_reader.h"
+#include "tests/evolve/files.h"
+#include "tests/evolve/runs.h"
+
+namespace metamorph::evolve {
+namespace {
+
+using testing::HasSubstr;
+using tests::contents;
+using tests::TemporaryDirectory;
+using tests::tiny_experiment;
+
+struct Ended {
+  int exit_code = -1;  ///< -1: ended by a signal
+  std::string output;  ///< stdout and stderr
+};
+
+/// The program, running in the background.
+class Program {
+ public:
+  /// `file_limit` bytes, if not 0, is the largest file it may write.
+  Program(const std::vector<std::string>& arguments, const TemporaryDirectory& directory,
+          rlim_t file_limit = 0)
+      : output_(directory.path() / "output") {
+    std::vector<std::string> words = {METAMORPH_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    child_ = fork();
+    if (child_ == 0) {
+      const int file = open(output_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+      dup2(file, STDOUT_FILENO);
+      dup2(file, STDERR_FILENO);
+      if (file_limit != 0) {
+        const rlimit limit{file_limit, file_limit};
+        setrlimit(RLIMIT_FSIZE, &limit);
+      }
+      execv(argv[0], argv.data());
+      _exit(127);
+    }
+  }
+
+  void signal(int number) const { kill(child_, number); }
+
+  Ended wait() {
+    int status = 0;
+    waitpid(child_, &status, 0);
+    Ended ended;
+    if (WIFEXITED(status)) ended.exit_code = WEXITSTATUS(status);
+    std::ostringstream text;
+    text << std::ifstream(output_).rdbuf();
+    ended.output = text.str();
+    return ended;
+  }
+
+ private:
+  std::filesystem::path output_;
+  pid_t child_ = -1;
+};
+
+class ProgramTest : public testing::Test {
+ protected:
+  ProgramTest() {
+    for (const SearchKind kind : {SearchKind::simple, SearchKind::novelty}) {
+      Experiment e = tiny_experiment(kind, 12);
+      std::ofstream(experiment(kind)) << to_toml(e);
+    }
+  }
+
+  std::string path(const std::string& name) const { return (directory_.path() / name).string(); }
+  std::string experiment(SearchKind kind) const {
+    return path(kind == SearchKind::simple ? "simple.toml" : "novelty.toml");
+  }
+  Ended run(const std::vector<std::string>& arguments, rlim_t file_limit = 0) const {
+    return Program(arguments, directory_, file_limit).wait();
+  }
+  /// Waits until a run has recorded so many generations.
+  void await(const std::string& name, int generations) const {
+    for (int tries = 0; tries < 20000; ++tries) {
+      try {
+        if (RunReader(path(name)).generations_done() >= generations) return;
+      } catch (const InputError&) {  // not there yet
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    FAIL() << "no generation " << generations;
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(ProgramTest, KilledAtAnyMomentAndResumedIsTheSame) {
+  const std::string file = experiment(SearchKind::novelty);
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(run({"evolve", file, "--out", path("whole"), "--threads", "1"}).exit_code, 0);
+  const std::chrono::duration<double> length = std::chrono::steady_clock::now() - begin;
+  const auto expected = contents(path("whole"));
+  std::mt19937 random(1);  // the moments; what is tested holds for all of them
+  for (int round = 0; round < 6; ++round) {
+    const std::string out = path("killed-" + std::to_string(round));
+    std::vector<std::string> arguments = {"evolve", file, "--out", out, "--threads", "1"};
+    for (int kills = 0; kills < 4; ++kills) {
+      Program program(arguments, directory_);
+      const double share = std::uniform_real_distribution<>(0, 0.5)(random);
+      std::this_thread::sleep_for(share * length);
+      program.signal(SIGKILL);
+      program.wait();
+      if (std::filesystem::exists(out + "/run.db") &&
+          std::filesystem::file_size(out + "/run.db") > 0) {
+        arguments = {"evolve", "--resume", out, "--threads", "1"};
+      } else {
+        // Killed before the record began: nothing to go on with, and nothing lost.
+        std::filesystem::remove_all(out);
+      }
+    }
+    const Ended ended = run(arguments);
+    if (ended.exit_code != 0 && ended.output.find("holds no experiment") != std::string::npos) {
+      continue;  // killed within the first transaction, and said so
+    }
+    ASSERT_EQ(ended.exit_code, 0) << ended.output;
+    EXPECT_EQ(contents(out), expected) << round;
+  }
+}
+
+TEST_F(ProgramTest, FirstInterruptFinishesTheGenerationAndSaysHowToGoOn) {
+  const std::string file = experiment(SearchKind::simple);
+  Program program({"evolve", file, "--out", path("a"), "--generations", "5000", "--threads", "1"},
+                  directory_);
+  await("a", 1);
+  program.signal(SIGINT);
+  const Ended ended = program.wait();
+  EXPECT_EQ(ended.exit_code, 0) << ended.output;
+  EXPECT_THAT(ended.output, HasSubstr("go on with: metamorph evolve --resume " + path("a")));
+  const int done = RunReader(path("a")).generations_done();
+  EXPECT_GE(done, 1);
+  EXPECT_LT(done, 5000);
+  // To the end, and it is the run that never stopped.
+  const std::string end = std::to_string(done + 3);
+  ASSERT_EQ(run({"evolve", "--resume", path("a"), "--generations", end}).exit_code, 0);
+  ASSERT_EQ(run({"evolve", file, "--out", path("b"), "--generations", end}).exit_code, 0);
+  EXPECT_EQ(contents(path("a")), contents(path("b")));
+}
+
+TEST_F(ProgramTest, SecondInterruptStopsAtOnceAndLosesNothing) {
+  Program program({"evolve", experiment(SearchKind::simple), "--out", path("a"), "--generations",
+                   "5000", "--threads", "1", "--set", "scenes.*.run_steps=1000000"},
+                  directory_);
+  // The first generation would take minutes; two signals end it.
+  for (int tries = 0; tries < 5000 && !std::filesystem::exists(path("a") + "/run.db"); ++tries) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  await("a", 0);
+  program.signal(SIGINT);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  program.signal(SIGINT);
+  EXPECT_EQ(program.wait().exit_code, 130);
+  EXPECT_EQ(RunReader(path("a")).generations_done(), 0);
+}
+
+TEST_F(ProgramTest, NoRoomGetsOneLineAndTheRunGoesOnLater) {
+  const std::string file = experiment(SearchKind::novelty);
+  const Ended full = run({"evolve", file, "--out", path("a"), "--threads", "1"}, 300 << 10);
+  EXPECT_EQ(full.exit_code, 2) << full.output;
+  EXPECT_THAT(full.output, HasSubstr("run.db: "));
+  const int done = RunReader(path("a")).generations_done();
+  EXPECT_GT(done, 0);
+  EXPECT_LT(done, 12);
+  ASSERT_EQ(run({"evolve", "--resume", path("a"), "--threads", "1"}).exit_code, 0);
+  ASSERT_EQ(run({"evolve", file, "--out", path("b"), "--threads", "1"}).exit_code, 0);
+  EXPECT_EQ(contents(path("a")), contents(path("b")));
+}
+
+TEST_F(ProgramTest, WrongInputGetsALineAndLeavesNothing) {
+  const std::string file = experiment(SearchKind::simple);
+  const std::vector<std::pair<std::vector<std::string>, std::string>> table = {
+      {{"evolve"}, "expected an experiment file, or --resume DIR"},
+      {{"evolve", path("none.toml")}, "none.toml: cannot be read"},
+      {{"evolve", file, "--out", path("x"), "--seed", "-1"}, "--seed: seed = -1: expected a whole"},
+      {{"evolve", file, "--out", path("x"), "--population", "many"},
+       "--population: neat.population = \"many\": expected a whole"},
+      {{"evolve", file, "--out", path("x"), "--set", "neat.severe=7"},
+       "--set: neat.severe = 7: expected a number from 0 to 1"},
+      {{"evolve", file, "--out", path("x"), "--set", "what"}, "expected key=value"},
+      {{"evolve", file, "--out", path("x"), "--threads", "0"}, "--threads"},
+      {{"evolve", "--resume", path("x")}, "holds no run.db"},
+      {{"evolve", file, "--resume", path("x"), "--seed", "3"},
+       "--seed: not together with --resume"},
+      {{"info", path("x")}, "no such file"},
+      {{"export", path("x")}, "expected one of --champion, --table"},
+  };
+  for (const auto& [arguments, line] : table) {
+    const Ended ended = run(arguments);
+    EXPECT_EQ(ended.exit_code, 2) << line;
+    EXPECT_THAT(ended.output, HasSubstr(line));
+    EXPECT_FALSE(std::filesystem::exists(path("x")));
+  }
+}
+
+TEST_F(ProgramTest, InfoAndExportTellWhatWasRecorded) {
+  ASSERT_EQ(run({"evolve", experiment(SearchKind::simple), "--out", path("a"), "--seed", "5",
+                 "--generations", "3", "--threads", "1"})
+                .exit_code,
+            0);
+  const Ended info = run({"info", path("a"), "--json"});
+  EXPECT_EQ(info.exit_code, 0);
+  const auto json = nlohmann::json::parse(info.output);
+  const RunReader reader(path("a"));
+  EXPECT_EQ(json.at("seed"), 5);
+  EXPECT_EQ(json.at("generations"), 3);
+  EXPECT_EQ(json.at("best").at("eq6"), reader.best().eq6);
+  EXPECT_EQ(json.at("best").at("trials").at(1).at("distance"), reader.best().distances[1]);
+  EXPECT_THAT(run({"info", path("a")}).output, HasSubstr("generations  3 of 3"));
+
+  const Ended exported = run({"export", path("a"), "--champion", "2", "--out", path("g.json")});
+  EXPECT_EQ(exported.exit_code, 0) << exported.output;
+  EXPECT_EQ(read_genome(path("g.json")), reader.champion(2).genome);
+  EXPECT_EQ(run({"export", path("a"), "--champion", "2", "--out", path("g.json")}).exit_code, 2);
+  EXPECT_EQ(run({"export", path("a"), "--champion", "3"}).exit_code, 2);
+  EXPECT_EQ(run({"export", path("a"), "--champion", "two"}).exit_code, 2);
+  EXPECT_EQ(run({"export", path("a"), "--table", "individuals"}).output.substr(0, 20),
+            "generation,position,");
+  const Ended configuration = run({"export", path("a"), "--configuration"});
+  EXPECT_EQ(configuration.output, to_toml(reader.experiment()));
+}
+
+}  // namespace
+}  // namespace metamorph::evolve

@@ -1,0 +1,233 @@
+#include "evolve/run/run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "evolve/run/run_reader.h"
+#include "tests/evolve/files.h"
+#include "tests/evolve/runs.h"
+
+namespace metamorph::evolve {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using tests::contents;
+using tests::lines_of;
+using tests::run_whole;
+using tests::TemporaryDirectory;
+using tests::tiny_experiment;
+
+constexpr SearchKind kinds[] = {SearchKind::simple, SearchKind::progressive, SearchKind::novelty};
+
+/// Runs `experiment`, stopping after every generation in `stops` and resuming.
+void run_in_pieces(const std::filesystem::path& directory, const Experiment& experiment,
+                   std::vector<int> stops) {
+  stops.push_back(experiment.generations);
+  int done = 0;
+  for (const int stop : stops) {
+    const std::unique_ptr<Record> record = std::filesystem::exists(directory)
+                                               ? Record::resume(directory, 1)
+                                               : std::make_unique<Record>(directory, experiment, 1);
+    int left = stop - done;
+    const RunSummary summary = run(*record, {1, [&] { return left-- == 0; }, {}});
+    EXPECT_EQ(summary.generations_done, stop);
+    EXPECT_EQ(summary.interrupted, stop < experiment.generations);
+    done = stop;
+  }
+}
+
+TEST(Run, RecordsWhatItWasAskedFor) {
+  const TemporaryDirectory directory;
+  for (const SearchKind kind : kinds) {
+    const auto path = directory.path() / std::to_string(static_cast<int>(kind));
+    const Experiment e = tiny_experiment(kind, 6);
+    const RunSummary summary = run_whole(path, e);
+    EXPECT_EQ(summary.generations_done, 6);
+    EXPECT_FALSE(summary.interrupted);
+    EXPECT_GT(summary.best.eq6, 0);  // somebody lives and moves, or these tests would say little
+    auto tables = contents(path);
+    EXPECT_EQ(tables["generations"].size(), 6u);
+    EXPECT_EQ(tables["champions"].size(), 6u);
+    EXPECT_EQ(tables["individuals"].size(), 6u * 12u);
+    EXPECT_EQ(tables["checkpoint"].size(), 1u);
+    EXPECT_FALSE(tables["species"].empty());
+    EXPECT_EQ(tables["archive"].empty(), kind != SearchKind::novelty);
+    // Progressive search runs larvae only in its first third, and one adult for the record.
+    const std::size_t all = 6 * 12 * 2;
+    EXPECT_EQ(tables["outcomes"].size(), kind == SearchKind::progressive ? all - 2 * 11 : all);
+  }
+}
+
+TEST(Run, ThreadsChangeNoBit) {
+  const TemporaryDirectory directory;
+  for (const SearchKind kind : kinds) {
+    const std::string name = std::to_string(static_cast<int>(kind));
+    const Experiment e = tiny_experiment(kind, 5);
+    run_whole(directory.path() / (name + "-1"), e, 1);
+    run_whole(directory.path() / (name + "-2"), e, 2);
+    EXPECT_EQ(contents(directory.path() / (name + "-1")),
+              contents(directory.path() / (name + "-2")));
+  }
+}
+
+TEST(Run, SeedsGiveOtherRuns) {
+  const TemporaryDirectory directory;
+  run_whole(directory.path() / "a", tiny_experiment(SearchKind::simple, 2, 1));
+  run_whole(directory.path() / "b", tiny_experiment(SearchKind::simple, 2, 2));
+  EXPECT_NE(contents(directory.path() / "a")["champions"],
+            contents(directory.path() / "b")["champions"]);
+}
+
+TEST(Run, InterruptedAnywhereAndResumedIsTheSame) {
+  const TemporaryDirectory directory;
+  for (const SearchKind kind : kinds) {
+    const std::string name = std::to_string(static_cast<int>(kind));
+    const Experiment e = tiny_experiment(kind, 6);
+    const auto whole = directory.path() / (name + "-whole");
+    run_whole(whole, e);
+    const auto expected = contents(whole);
+    for (int stop = 0; stop < 6; ++stop) {
+      const auto pieces = directory.path() / (name + "-" + std::to_string(stop));
+      run_in_pieces(pieces, e, {stop});
+      EXPECT_EQ(contents(pieces), expected) << "stopped after " << stop;
+    }
+    const auto every = directory.path() / (name + "-every");
+    run_in_pieces(every, e, {1, 2, 3, 4, 5});
+    EXPECT_EQ(contents(every), expected);
+  }
+}
+
+TEST(Run, ExtendedIsTheSameAsAskedForAtFirst) {
+  const TemporaryDirectory directory;
+  for (const SearchKind kind : {SearchKind::simple, SearchKind::novelty}) {
+    const std::string name = std::to_string(static_cast<int>(kind));
+    run_whole(directory.path() / (name + "-long"), tiny_experiment(kind, 6));
+    run_whole(directory.path() / name, tiny_experiment(kind, 3));
+    {
+      const std::unique_ptr<Record> record = Record::resume(directory.path() / name, 1);
+      check_new_generations(record->experiment(), 3, 6);
+      record->change_generations(6);
+      run(*record, {1, {}, {}});
+    }
+    EXPECT_EQ(contents(directory.path() / name), contents(directory.path() / (name + "-long")));
+  }
+}
+
+TEST(Run, RefusesGenerationsThatContradictTheRun) {
+  const Experiment simple = tiny_experiment(SearchKind::simple, 6);
+  EXPECT_NO_THROW(check_new_generations(simple, 3, 3));
+  EXPECT_NO_THROW(check_new_generations(simple, 3, 60));
+  EXPECT_THAT(lines_of([&] { check_new_generations(simple, 3, 2); }),
+              ElementsAre(HasSubstr("--generations 2: expected at least 3")));
+  const Experiment progressive = tiny_experiment(SearchKind::progressive, 6);
+  EXPECT_NO_THROW(check_new_generations(progressive, 3, 6));
+  EXPECT_THAT(lines_of([&] { check_new_generations(progressive, 3, 9); }),
+              ElementsAre(HasSubstr("--generations 9: expected 6: progressive")));
+}
+
+TEST(Run, ResumingAFinishedRunChangesNothing) {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "a";
+  run_whole(path, tiny_experiment(SearchKind::simple, 2));
+  const auto before = contents(path);
+  {
+    const std::unique_ptr<Record> record = Record::resume(path, 1);
+    EXPECT_EQ(run(*record, {1, {}, {}}).generations_done, 2);
+  }
+  EXPECT_EQ(contents(path), before);
+}
+
+TEST(Run, ChampionsReplayToTheRecordedBits) {
+  const TemporaryDirectory directory;
+  for (const SearchKind kind : kinds) {
+    const auto path = directory.path() / std::to_string(static_cast<int>(kind));
+    run_whole(path, tiny_experiment(kind, 6));
+    const RunReader reader(path);
+    const Experiment e = reader.experiment();
+    const Evaluator evaluator(e, 1);
+    for (int generation = 0; generation < 6; ++generation) {
+      const Champion champion = reader.champion(generation);
+      EvaluationSeconds seconds;
+      const Evaluated again = evaluator.evaluate_fully(champion.genome, seconds);
+      EXPECT_EQ(scalar_fitness(again.evaluation), champion.eq6) << generation;
+      for (std::size_t t = 0; t < e.trials.size(); ++t) {
+        EXPECT_EQ(again.evaluation.trials[t].distance, champion.distances[t]);
+        EXPECT_EQ(core::name(again.evaluation.trials[t].status), champion.statuses[t]);
+      }
+    }
+    // The best of the run is the best of its champions.
+    double best = 0;
+    for (int generation = 0; generation < 6; ++generation) {
+      best = std::max(best, reader.champion(generation).eq6);
+    }
+    EXPECT_EQ(reader.best().eq6, best);
+  }
+}
+
+TEST(Run, CellsBetweenStagesBalance) {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "a";
+  run_whole(path, tiny_experiment(SearchKind::novelty, 4));
+  Database database(path / "run.db", Database::Mode::read);
+  Statement rows(database,
+                 "SELECT count(*), sum(larva_cells + born - died != adult_cells), sum(born), "
+                 "min(born), min(died) FROM metamorphosis");
+  rows.step();
+  EXPECT_EQ(rows.integer(0), 4 * 12);
+  EXPECT_EQ(rows.integer(1), 0);  // cells are conserved
+  EXPECT_GT(rows.integer(2), 0);
+  EXPECT_GE(rows.integer(3), 0);
+  EXPECT_GE(rows.integer(4), 0);
+}
+
+TEST(Evaluator, RememberedResultsAreThoseOfAFreshEvaluation) {
+  const Experiment e = tiny_experiment(SearchKind::simple, 2);
+  const PopulationState population = first_generation(e.neat, 5);
+  Evaluator remembering(e, 1);
+  EvaluationSeconds seconds;
+  const std::vector<std::uint8_t> both = {1, 1}, larva = {1, 0};
+  const auto first = remembering.evaluate(population.genomes, both, seconds);
+  // Half old, half new, in another order; then other trials, for which nothing may be reused.
+  PopulationState other = first_generation(e.neat, 6);
+  std::vector<Genome> mixed(population.genomes.rbegin(), population.genomes.rbegin() + 6);
+  mixed.insert(mixed.end(), other.genomes.begin(), other.genomes.begin() + 6);
+  for (const auto& trials : {both, larva}) {
+    const auto a = remembering.evaluate(mixed, trials, seconds);
+    const auto b = Evaluator(e, 1).evaluate(mixed, trials, seconds);
+    for (std::size_t i = 0; i < mixed.size(); ++i) {
+      EXPECT_EQ(a[i].evaluation.evaluated, trials);
+      EXPECT_EQ(a[i].evaluation.created, b[i].evaluation.created);
+      for (std::size_t t = 0; t < 2; ++t) {
+        EXPECT_EQ(a[i].evaluation.trials[t].distance, b[i].evaluation.trials[t].distance);
+        EXPECT_EQ(a[i].stages[t].cells, b[i].stages[t].cells);
+      }
+    }
+  }
+}
+
+TEST(Evaluator, TooManyCellsCostFitness) {
+  Experiment e = tiny_experiment(SearchKind::simple, 2);
+  const PopulationState population = first_generation(e.neat, 5);
+  EvaluationSeconds seconds;
+  e.created_limit = 10;
+  const auto results = Evaluator(e, 1).evaluate(population.genomes, {1, 1}, seconds);
+  bool above = false, below = false;
+  for (const Evaluated& one : results) {
+    EXPECT_EQ(one.evaluation.penalty, one.evaluation.created > 10 ? 0.1 : 1.0);
+    (one.evaluation.created > 10 ? above : below) = true;
+  }
+  EXPECT_TRUE(above && below);  // both cases are met
+}
+
+TEST(Generation, BestIsByEq6ThenScoreThenPosition) {
+  EXPECT_EQ(best_position({1, 3, 2}, {9, 0, 9}), 1u);
+  EXPECT_EQ(best_position({0, 0, 0}, {1, 2, 2}), 1u);
+  EXPECT_EQ(best_position({5, 5}, {1, 1}), 0u);
+}
+
+}  // namespace
+}  // namespace metamorph::evolve

@@ -1,0 +1,75 @@
+#pragma once
+
+// Helpers for tests of runs and their records.
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "evolve/experiment/experiment_file.h"
+#include "evolve/run/run.h"
+#include "evolve/run/sqlite.h"
+
+namespace metamorph::tests {
+
+/// A water-to-land experiment that takes a moment: 12 individuals, short runs.
+inline evolve::Experiment tiny_experiment(evolve::SearchKind kind, int generations,
+                                          std::uint64_t seed = 3) {
+  evolve::Experiment e = evolve::parse_experiment(
+      "name = \"tiny\"\n"
+      "[neat]\npopulation = 12\n"
+      "[search]\nneighbours = 3\narchive_threshold = 0.2\n"
+      "[development]\nsteps = 300\nmax_cells = 40\n"
+      "[[trials]]\nname = \"larva\"\nstage = 180\nscene = \"water\"\n"
+      "[[trials]]\nname = \"adult\"\nstage = 300\nscene = \"land\"\n",
+      "tiny",
+      {{"test", "scenes.*.run_steps", "60"},
+       {"test", "scenes.*.ramp_steps", "20"},
+       {"test", "scenes.land.settle_quiet_steps", "20"},
+       {"test", "scenes.land.settle_max_steps", "60"}});
+  e.search.kind = kind;
+  e.generations = generations;
+  e.seed = seed;
+  return e;
+}
+
+/// Every table that belongs to "the same bits", as text: numbers to the last digit, blobs in hex.
+/// Left out: what depends on wall-clock and machine.
+inline std::map<std::string, std::vector<std::string>> contents(
+    const std::filesystem::path& directory) {
+  evolve::Database database(directory / "run.db", evolve::Database::Mode::read);
+  evolve::Statement tables(database, "SELECT name FROM sqlite_master WHERE type = 'table'");
+  std::map<std::string, std::vector<std::string>> result;
+  while (tables.step()) {
+    const std::string table = tables.text(0);
+    if (table == "sessions" || table == "timings") continue;
+    std::vector<std::string>& rows = result[table];
+    evolve::Statement select(database, "SELECT * FROM " + table);
+    while (select.step()) {
+      std::string row;
+      for (int c = 0; c < select.columns(); ++c) {
+        if (table == "checkpoint" && select.name(c) == "state") {
+          for (const std::uint8_t byte : select.blob(c)) row += fmt::format("{:02x}", byte);
+        } else if (select.is_real(c)) {
+          row += fmt::format("{:a}|", select.real(c));
+        } else {
+          row += select.is_null(c) ? "null|" : select.text(c) + "|";
+        }
+      }
+      rows.push_back(std::move(row));
+    }
+  }
+  return result;
+}
+
+/// Runs an experiment from its start to its end in a new directory.
+inline evolve::RunSummary run_whole(const std::filesystem::path& directory,
+                                    const evolve::Experiment& experiment, int threads = 1) {
+  evolve::Record record(directory, experiment, threads);
+  return evolve::run(record, {threads, {}, {}});
+}
+
+}  // namespace metamorph::tests
