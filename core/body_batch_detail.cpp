@@ -37,10 +37,11 @@ struct BodyBatch<T>::Plan {
     order.resize(at(body.node_count()));
     std::iota(order.begin(), order.end(), 0);
     // Outline nodes in front, then by ring size: lanes of a group have nearly equal work.
-    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
       const bool outer_a = rings.edges(a) > 0, outer_b = rings.edges(b) > 0;
       if (outer_a != outer_b) return outer_a;
-      return rings.size(a) > rings.size(b);
+      if (rings.size(a) != rings.size(b)) return rings.size(a) > rings.size(b);
+      return a < b;
     });
     lane.resize(order.size());
     for (std::size_t l = 0; l < order.size(); ++l)

@@ -58,8 +58,9 @@ std::vector<Outcome> run_all(std::span<const LocomotionTask> tasks,
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     if (outcomes[i].status == Status::ok) sound.push_back(i);
   }
-  std::stable_sort(sound.begin(), sound.end(), [&](std::size_t a, std::size_t b) {
-    return expected_work(tasks[a]) > expected_work(tasks[b]);
+  std::sort(sound.begin(), sound.end(), [&](std::size_t a, std::size_t b) {
+    const double work_a = expected_work(tasks[a]), work_b = expected_work(tasks[b]);
+    return work_a != work_b ? work_a > work_b : a < b;
   });
   std::vector<LocomotionTask> packed;
   for (std::size_t i : sound) packed.push_back(tasks[i]);

@@ -1,0 +1,237 @@
+// The same bits for any batch, order, thread count and neighbour; failures as data.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "core/locomotion.h"
+#include "core/random.h"
+#include "core/stability.h"
+#include "tests/bodies.h"
+
+namespace metamorph::core {
+namespace {
+
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+bool same(const Outcome& a, const Outcome& b) {
+  return a.status == b.status && same_bits(a.distance, b.distance) &&
+         same_bits(a.mean_position[0], b.mean_position[0]) &&
+         same_bits(a.mean_position[1], b.mean_position[1]) && a.cells == b.cells &&
+         a.springs == b.springs && a.triangles == b.triangles && a.steps == b.steps &&
+         same_bits(a.settle_time, b.settle_time) && same_bits(a.min_area_ratio, b.min_area_ratio) &&
+         same_bits(a.max_speed, b.max_speed) && a.failed_step == b.failed_step &&
+         a.failed_index == b.failed_index && same_bits(a.failed_value, b.failed_value);
+}
+
+/// Short scenes: bits are decided in the first steps as well as in the last.
+std::vector<Scene> short_scenes() {
+  std::vector<Scene> scenes = {water_scene(), land_scene(), land_right_scene(), slope_scene()};
+  for (Scene& scene : scenes) {
+    scene.run_steps = 100;
+    scene.settle_max_steps = 40;
+  }
+  return scenes;
+}
+
+struct Tasks {
+  std::vector<Body> bodies;
+  std::vector<Scene> scenes = short_scenes();
+  std::vector<LocomotionTask> tasks;
+
+  explicit Tasks(int count) {
+    for (int i = 0; i < count; ++i) {
+      bodies.push_back(tests::blob_body(24 + (i * 37) % 200, static_cast<std::uint64_t>(i + 1)));
+    }
+    for (int i = 0; i < count; ++i) {
+      tasks.push_back({&bodies[static_cast<std::size_t>(i)],
+                       &scenes[static_cast<std::size_t>(i) % scenes.size()]});
+    }
+  }
+};
+
+class Batch : public testing::TestWithParam<Precision> {
+ protected:
+  LocomotionOptions options(int threads) const {
+    return {.precision = GetParam(), .threads = threads};
+  }
+};
+
+TEST_P(Batch, EqualsSinglesForAnySizeAndOrder) {
+  const Tasks all(60);
+  const auto whole = simulate(all.tasks, options(1));
+  for (std::size_t i = 0; i < all.tasks.size(); ++i) {
+    EXPECT_TRUE(same(whole[i], simulate({&all.tasks[i], 1}, options(1)).front())) << "task " << i;
+  }
+  std::vector<std::size_t> order(all.tasks.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  RandomStream random(Purpose::test, 5, 0, 0);
+  for (std::size_t i = order.size() - 1; i > 0; --i) {
+    std::swap(order[i], order[random.below(static_cast<std::uint32_t>(i + 1))]);
+  }
+  std::vector<LocomotionTask> shuffled;
+  for (const std::size_t i : order) shuffled.push_back(all.tasks[i]);
+  const auto results = simulate(shuffled, options(1));
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    EXPECT_TRUE(same(whole[order[i]], results[i])) << "task " << order[i];
+  }
+}
+
+TEST_P(Batch, EqualsItselfForAnyNumberOfThreads) {
+  const Tasks all(60);
+  const auto one = simulate(all.tasks, options(1));
+  for (const int threads : {2, 3, 7}) {
+    const auto many = simulate(all.tasks, options(threads));
+    for (std::size_t i = 0; i < all.tasks.size(); ++i) {
+      EXPECT_TRUE(same(one[i], many[i])) << "task " << i << ", " << threads << " threads";
+    }
+  }
+}
+
+/// One way to fail, and what it must be called.
+struct Failure {
+  std::string name;
+  Status status;
+  void (*spoil)(Body&, Scene&);
+};
+
+std::ostream& operator<<(std::ostream& out, const Failure& failure) { return out << failure.name; }
+
+const Failure failures[] = {
+    {"NanPosition", Status::bad_input,
+     [](Body& body, Scene&) { body.x[5] = std::numeric_limits<double>::quiet_NaN(); }},
+    {"InfiniteRestLength", Status::bad_input,
+     [](Body& body, Scene&) { body.rest_length[3] = std::numeric_limits<double>::infinity(); }},
+    {"NegativePeriod", Status::bad_input, [](Body& body, Scene&) { body.period[2] = -30; }},
+    {"CoincidentNodes", Status::bad_geometry,
+     [](Body& body, Scene&) {
+       body.x[body.triangles[0][0]] = body.x[body.triangles[0][1]];
+       body.y[body.triangles[0][0]] = body.y[body.triangles[0][1]];
+     }},
+    {"ClockwiseTriangle", Status::bad_geometry,
+     [](Body& body, Scene&) { std::swap(body.triangles[4][0], body.triangles[4][1]); }},
+    {"IsolatedNode", Status::bad_topology,
+     [](Body& body, Scene&) {
+       body.x.push_back(100);
+       body.y.push_back(100);
+       body.period.push_back(30);
+       body.phase.push_back(0);
+     }},
+    {"StiffSprings", Status::step_too_large, [](Body&, Scene& scene) { scene.stiffness = 100; }},
+    {"StrongDamping", Status::step_too_large, [](Body&, Scene& scene) { scene.damping = 3; }},
+    {"LargeStep", Status::step_too_large, [](Body&, Scene& scene) { scene.step = 1; }},
+    {"ThrownIntoGravity", Status::speed,
+     [](Body&, Scene& scene) {
+       scene.drag = false;
+       scene.ground = true;
+       scene.slope_degrees = 60;
+       scene.gravity = 1;
+       scene.friction = 0;
+       scene.settle_max_steps = 0;
+       scene.run_steps = 3000;
+     }},
+    {"NoPressureAndHugeActuation", Status::inverted,
+     [](Body& body, Scene& scene) {
+       scene.pressure = 1e-6;
+       scene.amplitude = 0.5;
+       scene.ramp_steps = 1;
+       for (double& period : body.period) period = 5;
+       scene.run_steps = 3000;
+     }},
+    {"SqueezedSlowly", Status::collapsed,
+     [](Body& body, Scene& scene) {
+       // Springs that want a tenth of their length against almost no pressure: everything shrinks
+       // evenly until S/S0 passes 0.05.
+       scene.pressure = 1e-3;
+       scene.self_collision = false;
+       for (double& length : body.rest_length) length *= 0.1;
+       scene.drag_normal = 5;
+       scene.amplitude = 0;
+       scene.run_steps = 3000;
+     }},
+    {"ExplosiveDrag", Status::non_finite, [](Body&, Scene& scene) { scene.drag_normal = 1e30; }},
+};
+
+class FailureIn : public testing::TestWithParam<std::tuple<Precision, Failure>> {};
+
+TEST_P(FailureIn, ABatchIsNamedAndDisturbsNobody) {
+  const auto& [precision, failure] = GetParam();
+  const LocomotionOptions options{.precision = precision, .threads = 2};
+  Tasks all(64);
+  const auto healthy = simulate(all.tasks, options);
+  const std::size_t bad = 31;
+  Scene scene = water_scene();
+  scene.run_steps = 100;
+  Body body = tests::blob_body(60, 77);
+  failure.spoil(body, scene);
+  all.tasks[bad] = {&body, &scene};
+  const auto with_failure = simulate(all.tasks, options);
+  for (std::size_t i = 0; i < all.tasks.size(); ++i) {
+    if (i == bad) continue;
+    EXPECT_TRUE(same(healthy[i], with_failure[i])) << "task " << i;
+  }
+  const Outcome& outcome = with_failure[bad];
+  EXPECT_EQ(name(outcome.status), name(failure.status));
+  EXPECT_TRUE(is_failure(outcome.status));
+  EXPECT_EQ(outcome.distance, 0);
+  if (outcome.status >= Status::inverted) {
+    EXPECT_GT(outcome.failed_step, 0);
+    EXPECT_GE(outcome.failed_index, 0);
+    EXPECT_EQ(outcome.failed_step, outcome.steps);
+  }
+  if (outcome.status == Status::inverted) {
+    EXPECT_LE(outcome.failed_value, 0);
+  }
+  if (outcome.status == Status::collapsed) {
+    EXPECT_LT(outcome.failed_value, 0.05);
+  }
+  if (outcome.status == Status::speed) {
+    EXPECT_GT(outcome.failed_value, 2.5);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, Batch, testing::Values(Precision::float32, Precision::float64),
+                         [](const auto& param) {
+                           return param.param == Precision::float32 ? "Float32" : "Float64";
+                         });
+INSTANTIATE_TEST_SUITE_P(, FailureIn,
+                         testing::Combine(testing::Values(Precision::float32, Precision::float64),
+                                          testing::ValuesIn(failures)),
+                         [](const auto& param) {
+                           return (std::get<0>(param.param) == Precision::float32 ? "Float32"
+                                                                                  : "Float64") +
+                                  std::get<1>(param.param).name;
+                         });
+
+TEST(Settling, ThatTimesOutIsSaidAndItsDistanceCounts) {
+  const Body body = tests::blob_body(40, 3);
+  Scene scene = land_scene();
+  scene.settle_max_steps = 10;
+  scene.run_steps = 400;
+  const LocomotionTask task{&body, &scene};
+  const Outcome outcome = simulate({&task, 1}, {}).front();
+  EXPECT_EQ(outcome.status, Status::not_settled);
+  EXPECT_GT(outcome.distance, 0);
+  EXPECT_DOUBLE_EQ(outcome.settle_time, 2.0);
+}
+
+TEST(StepLimit, SafeIsNeverAboveSharp) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Body body = tests::blob_body(50, seed, 0.25);
+    for (const double damping : {0.0, 0.2, 0.4, 0.8}) {
+      for (const Method method : {Method::drift_kick_drift, Method::symplectic_euler}) {
+        const StepLimit limit = step_limit(body, water_scene(), damping, method);
+        EXPECT_LE(limit.safe, limit.sharp * (1 + 1e-6)) << "seed " << seed;
+        EXPECT_GT(limit.safe, 0.6 * limit.sharp) << "seed " << seed;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace metamorph::core
