@@ -57,4 +57,7 @@ struct BodyFault {
 /// and a hole are no faults.
 std::vector<BodyFault> check(const Body& body);
 
+/// The status that a list of faults amounts to: the most basic of them, ok if there is none.
+Status status_of(const std::vector<BodyFault>& faults);
+
 }  // namespace metamorph::core

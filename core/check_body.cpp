@@ -267,4 +267,12 @@ class Checker {
 
 std::vector<BodyFault> check(const Body& body) { return Checker(body).run(); }
 
+Status status_of(const std::vector<BodyFault>& faults) {
+  Status status = Status::ok;
+  for (const BodyFault& fault : faults) {
+    status = status == Status::ok ? fault.status : std::min(status, fault.status);
+  }
+  return status;
+}
+
 }  // namespace metamorph::core

@@ -23,7 +23,7 @@ Outcome before_running(const LocomotionTask& task, Method method) {
     return outcome;
   }
   if (const auto faults = check(body); !faults.empty()) {
-    outcome.status = faults.front().status;
+    outcome.status = status_of(faults);
     return outcome;
   }
   if (!step_is_stable(body, *task.scene, method)) {

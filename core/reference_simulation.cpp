@@ -140,7 +140,7 @@ Outcome simulate_reference(const Body& body, const Scene& scene, const Reference
     return refused;
   }
   if (const std::vector<BodyFault> faults = check(body); !faults.empty()) {
-    refused.status = faults.front().status;
+    refused.status = status_of(faults);
     return refused;
   }
   return Evaluation(body, scene, options).run();

@@ -129,6 +129,7 @@ const Failure failures[] = {
      [](Body&, Scene& scene) {
        scene.drag = false;
        scene.ground = true;
+       scene.step = 0.1;
        scene.slope_degrees = 60;
        scene.gravity = 1;
        scene.friction = 0;
@@ -143,16 +144,12 @@ const Failure failures[] = {
        for (double& period : body.period) period = 5;
        scene.run_steps = 3000;
      }},
-    {"SqueezedSlowly", Status::collapsed,
+    {"StartsSqueezed", Status::collapsed,
      [](Body& body, Scene& scene) {
-       // Springs that want a tenth of their length against almost no pressure: everything shrinks
-       // evenly until S/S0 passes 0.05.
-       scene.pressure = 1e-3;
-       scene.self_collision = false;
-       for (double& length : body.rest_length) length *= 0.1;
-       scene.drag_normal = 5;
-       scene.amplitude = 0;
-       scene.run_steps = 3000;
+       // A body given at a twenty-fifth of its rest areas, S/S0 = 0.04, with a pressure too weak to
+       // tear it apart within the first eight steps.
+       for (double& area : body.rest_area) area *= 25;
+       scene.pressure = 0.01;
      }},
     {"ExplosiveDrag", Status::non_finite, [](Body&, Scene& scene) { scene.drag_normal = 1e30; }},
 };
@@ -227,7 +224,9 @@ TEST(StepLimit, SafeIsNeverAboveSharp) {
       for (const Method method : {Method::drift_kick_drift, Method::symplectic_euler}) {
         const StepLimit limit = step_limit(body, water_scene(), damping, method);
         EXPECT_LE(limit.safe, limit.sharp * (1 + 1e-6)) << "seed " << seed;
-        EXPECT_GT(limit.safe, 0.6 * limit.sharp) << "seed " << seed;
+        // Row sums of a lattice with six neighbours all around are 10, its largest eigenvalue 5.7,
+        // and the limit is as the inverse of either where damping decides.
+        EXPECT_GT(limit.safe, 0.45 * limit.sharp) << "seed " << seed;
       }
     }
   }
