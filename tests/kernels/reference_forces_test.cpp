@@ -167,6 +167,21 @@ TEST(Dampers, NeverDoWork) {
   }
 }
 
+TEST(Dampers, DoNotFeelRigidMotion) {
+  Tangle tangle(7);
+  const std::size_t n = tangle.points.x.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    tangle.points.vx[i] = 0.3 - 0.5 * tangle.points.y[i];
+    tangle.points.vy[i] = -0.7 + 0.5 * tangle.points.x[i];
+  }
+  std::vector<double> fx(n), fy(n);
+  ref::add_spring_forces(tangle.body.springs, tangle.body.rest_length, 0, 0.4,
+                         tangle.points.nodes(), {fx, fy});
+  // Speeds of up to 4, rounded in each of six springs.
+  for (std::size_t i = 0; i < n; ++i)
+    EXPECT_TRUE(within(std::hypot(fx[i], fy[i]), tolerance::sum(round_off_64, 6 * 8) * 4));
+}
+
 TEST(Spring, OfLengthZeroExertsNoForce) {
   Points points(2);
   points.vx[1] = 1;
