@@ -90,11 +90,10 @@ Genome parse_genome(std::string_view text, const std::string& source) {
                [&](Members& link) { genome.links.push_back(read_link(link, faults)); });
   faults.throw_if_any();  // what follows would judge values that were never read
 
-  std::stable_sort(genome.nodes.begin(), genome.nodes.end(),
-                   [](const NodeGene& a, const NodeGene& b) { return a.id < b.id; });
-  std::stable_sort(
-      genome.links.begin(), genome.links.end(),
-      [](const LinkGene& a, const LinkGene& b) { return a.innovation < b.innovation; });
+  std::sort(genome.nodes.begin(), genome.nodes.end(),
+            [](const NodeGene& a, const NodeGene& b) { return a.id < b.id; });
+  std::sort(genome.links.begin(), genome.links.end(),
+            [](const LinkGene& a, const LinkGene& b) { return a.innovation < b.innovation; });
   for (const std::string& fault : check(genome)) faults.add_line(fault);
   faults.throw_if_any();
   return genome;
