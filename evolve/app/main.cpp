@@ -22,6 +22,7 @@ const std::vector<AddCommand> add_commands = {
     add_simulate_command,
     add_info_command,
     add_export_command,
+    add_render_command,
 };
 
 /// The line of a command-line fault: which command, what, and where to read on.

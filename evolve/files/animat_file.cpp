@@ -84,6 +84,10 @@ struct Reading {
 
 }  // namespace
 
+std::string format_of(const std::filesystem::path& file) {
+  return format_of(detail::read_text(file), file.string());
+}
+
 std::vector<Animat> read_animats(const std::vector<std::filesystem::path>& paths,
                                  const BodyChoice& choice, int threads) {
   Reading reading;

@@ -24,6 +24,10 @@ struct Animat {
   core::Body body;
 };
 
+/// The tag of a JSON file: body_format, genome_format, ...; "" if it has none. Throws InputError if
+/// the file cannot be read or is no JSON object.
+std::string format_of(const std::filesystem::path& file);
+
 /// Reads what `paths` name, in order: body and genome files, and of a directory every such file
 /// among its *.json (not below it), ascending by name; embryo files there, which grow writes beside
 /// the bodies, are left out. Genomes are grown as one batch. Throws InputError with the faults of

@@ -49,7 +49,15 @@ Layout lay_out(const Sheet& sheet) {
   }
   const double gaps = gap * static_cast<double>(columns > 0 ? columns - 1 : 0);
   const double room = sheet.width - 2 * margin - gaps;
-  layout.scale = std::clamp(room / std::max(sum(extent), 1e-9), 0.5, sheet.max_scale);
+  double tall = 0;  // d
+  for (const auto& row : sheet.rows) {
+    double height = 0;
+    for (const Panel& panel : row) height = std::max(height, panel.box.height());
+    tall += height;
+  }
+  const double fitting =
+      std::min(room / std::max(sum(extent), 1e-9), sheet.height / std::max(tall, 1e-9));
+  layout.scale = std::clamp(fitting, 0.5, sheet.max_scale);
 
   for (const double e : extent) layout.column_width.push_back(e * layout.scale);
   for (const auto& row : sheet.rows) {

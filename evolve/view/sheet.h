@@ -18,7 +18,8 @@ struct Sheet {
   Legend legend = Legend::none;
   std::vector<std::vector<Panel>> rows;
   int line_after_column = -1;  ///< a dashed line behind this column (figure 4); -1: none
-  double width = 1000;         ///< layout pixels the sheet should fill
+  double width = 1000;         ///< layout pixels the sheet may take
+  double height = 640;         ///< layout pixels the drawings may take, all rows together
   double max_scale = 26;       ///< layout pixels per d, at most
 };
 

@@ -1,0 +1,249 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/extract_body.h"
+#include "evolve/app/commands.h"
+#include "evolve/app/options.h"
+#include "evolve/experiment/experiment_file.h"
+#include "evolve/files/animat_file.h"
+#include "evolve/files/body_file.h"
+#include "evolve/files/genome_file.h"
+#include "evolve/files/input_error.h"
+#include "evolve/files/output_file.h"
+#include "evolve/run/evaluate.h"
+#include "evolve/run/pictures.h"
+#include "evolve/run/run_reader.h"
+#include "evolve/view/motion.h"
+
+namespace metamorph::evolve {
+namespace {
+
+struct RenderOptions {
+  std::string source;
+  std::string out;
+  std::string kind = "animat";
+  std::string experiment;  ///< empty: larva in water, adult on land
+  std::string trial;       ///< empty: the first
+  std::string scene = "water";
+  int generation = -1;  ///< of a run; -1: the best of all
+  int snapshots = 8;
+  std::vector<int> at;  ///< empty: six steps
+  bool overwrite = false;
+};
+
+/// A genome and the experiment it is shown in.
+struct Subject {
+  Experiment experiment;
+  Genome genome;
+  std::string heading;
+};
+
+Experiment water_to_land() {
+  Experiment experiment;
+  experiment.scenes = {{"water", core::water_scene()}, {"land", core::land_scene()}};
+  experiment.trials = {{"larva", 600, "water"}, {"adult", 1200, "land"}};
+  return experiment;
+}
+
+Subject subject_of_run(const RenderOptions& options) {
+  const RunReader run(options.source);
+  if (run.generations_done() == 0) throw InputError(options.source + ": no generation is done yet");
+  Subject subject{run.experiment(), {}, ""};
+  const Champion champion = options.generation >= 0 ? run.champion(options.generation) : run.best();
+  subject.genome = champion.genome;
+  subject.heading =
+      fmt::format("{}, seed {}: best of generation {}, {:.3f} d (eq 6)", subject.experiment.name,
+                  subject.experiment.seed, champion.generation, champion.eq6);
+  return subject;
+}
+
+Subject subject_of_genome(const RenderOptions& options) {
+  return {options.experiment.empty() ? water_to_land() : read_experiment(options.experiment),
+          read_genome(options.source), std::filesystem::path(options.source).stem().string()};
+}
+
+std::vector<core::Outcome> outcomes_of(const Subject& subject) {
+  EvaluationSeconds seconds;
+  return Evaluator(subject.experiment, 1).evaluate_fully(subject.genome, seconds).evaluation.trials;
+}
+
+std::vector<core::Embryo> embryos_of(const Subject& subject, const std::vector<int>& steps) {
+  const core::Network network = compile(subject.genome);
+  return core::develop({&network, 1}, subject.experiment.development, steps, 1).front();
+}
+
+/// The requested steps, ascending, each once; without a request six, the stages among them.
+std::vector<int> steps_of(const Subject& subject, std::vector<int> steps) {
+  const int end = subject.experiment.development.steps;
+  if (steps.empty()) {
+    for (int k = 1; k <= 6; ++k) steps.push_back(end * k / 6);
+  }
+  std::sort(steps.begin(), steps.end());
+  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+  if (steps.front() < 0 || steps.back() > end) {
+    throw InputError(fmt::format("--at: {}: expected steps from 0 to {}, the end of development",
+                                 steps.front() < 0 ? steps.front() : steps.back(), end));
+  }
+  return steps;
+}
+
+Sheet development_of(const Subject& subject, const RenderOptions& options) {
+  const std::vector<core::Embryo> embryos = embryos_of(subject, steps_of(subject, options.at));
+  std::vector<core::Body> bodies;
+  for (const core::Embryo& embryo : embryos) {
+    bodies.push_back(core::extract_body(embryo, subject.experiment.min_cells).body);
+  }
+  const std::vector<int> stages = subject.experiment.stages();
+  return development_sheet(
+      embryos, bodies,
+      stages.size() > 1 ? stages.front() : subject.experiment.development.steps + 1);
+}
+
+const Trial& trial_of(const Subject& subject, const std::string& name) {
+  const std::vector<Trial>& trials = subject.experiment.trials;
+  if (name.empty()) return trials.front();
+  for (const Trial& trial : trials) {
+    if (trial.name == name) return trial;
+  }
+  std::vector<std::string> names;
+  for (const Trial& trial : trials) names.push_back(trial.name);
+  throw InputError(fmt::format("--trial: {}: expected {}", name, fmt::join(names, " or ")));
+}
+
+Sheet motion_of_body(const core::Body& body, const core::Scene& scene,
+                     const core::LocomotionOptions& locomotion, int count) {
+  return motion_sheet(body, last_cycle(body, scene, locomotion, count), scene.ground);
+}
+
+Sheet motion_of(const Subject& subject, const RenderOptions& options) {
+  const Trial& trial = trial_of(subject, options.trial);
+  const core::Embryo embryo = embryos_of(subject, {trial.stage}).front();
+  const core::Extraction extraction = core::extract_body(embryo, subject.experiment.min_cells);
+  if (extraction.status != core::Status::ok) {
+    throw InputError(
+        fmt::format("{}: the {} has no body that could move", options.source, trial.name));
+  }
+  core::LocomotionOptions locomotion;
+  locomotion.precision = subject.experiment.locomotion.precision;
+  locomotion.method = subject.experiment.locomotion.method;
+  Sheet sheet = motion_of_body(extraction.body, subject.experiment.scene_of(trial), locomotion,
+                               options.snapshots);
+  sheet.remark = fmt::format("{}: last cycle in {}, time in steps", trial.name, trial.scene);
+  return sheet;
+}
+
+Sheet phases_of(const Subject& subject) {
+  std::vector<Stage> stages;
+  for (const Trial& trial : subject.experiment.trials) {
+    Stage stage;
+    stage.title = trial.name;
+    stage.embryo = embryos_of(subject, {trial.stage}).front();
+    stage.body = core::extract_body(stage.embryo, subject.experiment.min_cells).body;
+    stages.push_back(std::move(stage));
+  }
+  return phase_sheet(stages);
+}
+
+Sheet sheet_of(const Subject& subject, const RenderOptions& options) {
+  Sheet sheet;
+  if (options.kind == "animat") {
+    return individual_sheet(subject.experiment, subject.genome, outcomes_of(subject),
+                            subject.heading);
+  }
+  if (options.kind == "development") sheet = development_of(subject, options);
+  if (options.kind == "motion") sheet = motion_of(subject, options);
+  if (options.kind == "phase") sheet = phases_of(subject);
+  sheet.heading = subject.heading;
+  return sheet;
+}
+
+Sheet sheet_of_body(const RenderOptions& options) {
+  const core::Body body = read_body(options.source);
+  Sheet sheet;
+  if (options.kind == "development") {
+    throw InputError("--kind: development: expected animat, motion or phase for a body");
+  }
+  if (options.kind == "motion") {
+    sheet = motion_of_body(body, scene_named(options.scene), {}, options.snapshots);
+    sheet.remark = fmt::format("last cycle in {}, time in steps", options.scene);
+  } else if (options.kind == "phase") {
+    sheet.legend = Legend::phase;
+    sheet.rows = {{phase_panel(body)}};
+  } else {
+    sheet.rows = {{body_panel(body, {})}};
+    sheet.remark = fmt::format("{} nodes, {} springs, {} triangles", body.node_count(),
+                               body.springs.size(), body.triangles.size());
+  }
+  sheet.heading = std::filesystem::path(options.source).stem().string();
+  return sheet;
+}
+
+bool is_run(const std::filesystem::path& source) {
+  return std::filesystem::is_directory(source) || source.extension() == ".db";
+}
+
+void render(const RenderOptions& options) {
+  if (!is_picture_file(options.out)) {
+    throw InputError("--out: " + options.out + ": expected a name that ends in .svg, .png or .pdf");
+  }
+  check_writable(options.out, options.overwrite ? Overwrite::yes : Overwrite::no);
+  Sheet sheet;
+  if (is_run(options.source)) {
+    sheet = sheet_of(subject_of_run(options), options);
+  } else if (format_of(std::filesystem::path(options.source)) == body_format) {
+    sheet = sheet_of_body(options);
+  } else {
+    sheet = sheet_of(subject_of_genome(options), options);
+  }
+  write_sheet(sheet, options.out);
+  fmt::print("{}\n", options.out);
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app) {
+  const auto options = std::make_shared<RenderOptions>();
+  CLI::App* command =
+      app.add_subcommand("render", "Draws a run's champion, a genome or a body as SVG, PNG or PDF");
+  command
+      ->add_option("SOURCE", options->source,
+                   "Directory of a run or its run.db, a genome file, or a body file")
+      ->required()
+      ->option_text("RUN|GENOME.json|BODY.json");
+  command->add_option("--out", options->out, "The picture; its ending says which kind of file")
+      ->required()
+      ->option_text("FILE.svg|.png|.pdf");
+  command
+      ->add_option("--kind", options->kind,
+                   "animat: embryos and bodies of all stages (figures 4, 5); development: a row of "
+                   "steps (figures 4, 8); motion: one cycle (figures 3, 6); phase: phase shifts "
+                   "(figure 9)")
+      ->check(one_of({"animat", "development", "motion", "phase"}))
+      ->option_text("KIND [animat]");
+  command->add_option("--generation", options->generation, "Of a run: the best of this generation")
+      ->check(integer_from(0, 100000000))
+      ->option_text("N [best of all]");
+  command
+      ->add_option("--experiment", options->experiment,
+                   "Of a genome: the experiment that says how it develops and where it moves")
+      ->option_text("FILE.toml [larva in water, adult on land]");
+  command->add_option("--at", options->at, "Of development: steps, separated by commas")
+      ->delimiter(',')
+      ->option_text("STEP,... [six]");
+  command->add_option("--trial", options->trial, "Of motion: which stage moves (larva, adult, ...)")
+      ->option_text("NAME [the first]");
+  command->add_option("--snapshots", options->snapshots, "Of motion: how many")
+      ->check(integer_from(1, 64))
+      ->option_text("N [8]");
+  add_scene_option(*command, options->scene);
+  command->add_flag("--overwrite", options->overwrite, "Replace a file that exists");
+  command->callback([options] { render(*options); });
+}
+
+}  // namespace metamorph::evolve
