@@ -33,11 +33,11 @@ END
 [ -d "$out" ] || exit 0
 say "evolution took $(took $((SECONDS - start)))"
 say
-say "The run lies in $out:"
-ls "$out" | sed 's/^/  /'
+say "The run lies in $out: run.db is its record, best.png and best.svg show its best animat."
 say "What to do next:"
-say "  $metamorph info $out                      what it holds"
-say "  $metamorph audit $out                     how far its distances can be trusted"
-say "  $metamorph render $out --out champion.svg its champion as a picture"
-say "  $metamorph evolve --help                  experiments, options, resuming"
-say "  bash evolve/run.sh                        another run, with another seed"
+say "  $metamorph info $out"
+say "  $metamorph render $out --kind motion --trial adult --out $out/motion.png"
+say "  $metamorph render $out --kind development --out $out/development.png"
+say "  $metamorph evolve --resume $out --generations 100"
+say "  bash evolve/run.sh        evolves again, with another seed"
+say "  $metamorph --help         lists all commands"

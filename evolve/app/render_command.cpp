@@ -134,7 +134,7 @@ Sheet motion_of(const Subject& subject, const RenderOptions& options) {
   locomotion.method = subject.experiment.locomotion.method;
   Sheet sheet = motion_of_body(extraction.body, subject.experiment.scene_of(trial), locomotion,
                                options.snapshots);
-  sheet.remark = fmt::format("{}: last cycle in {}, time in steps", trial.name, trial.scene);
+  sheet.remark = fmt::format("{}: last cycle, scene {}, time in steps", trial.name, trial.scene);
   return sheet;
 }
 
@@ -171,7 +171,7 @@ Sheet sheet_of_body(const RenderOptions& options) {
   }
   if (options.kind == "motion") {
     sheet = motion_of_body(body, scene_named(options.scene), {}, options.snapshots);
-    sheet.remark = fmt::format("last cycle in {}, time in steps", options.scene);
+    sheet.remark = fmt::format("last cycle, scene {}, time in steps", options.scene);
   } else if (options.kind == "phase") {
     sheet.legend = Legend::phase;
     sheet.rows = {{phase_panel(body)}};

@@ -1,0 +1,98 @@
+// The command render, run as a person would run it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "evolve/files/body_file.h"
+#include "evolve/files/genome_file.h"
+#include "evolve/view/motion.h"
+#include "tests/bodies.h"
+#include "tests/evolve/program.h"
+
+namespace metamorph::evolve {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using tests::run_program;
+
+/// Cells turn by where they are, and fill the plane.
+Genome blob_genome() {
+  Genome genome;
+  for (int id = 0; id < 13; ++id) {
+    genome.nodes.push_back({id, id < 6 ? NodeKind::input : NodeKind::output});
+  }
+  genome.links = {{1, 0, 7, 6.0}, {2, 1, 7, 5.0}, {3, 2, 7, -4.0}, {4, 5, 7, 1.0}};
+  return genome;
+}
+
+class Render : public ::testing::Test {
+ protected:
+  Render() {
+    write_genome(here() / "blob.json", blob_genome(), Overwrite::no);
+    write_body(here() / "strip.json", tests::strip_body(20), Overwrite::no);
+  }
+  std::filesystem::path here() const { return directory_.path(); }
+  tests::ProgramResult render(const std::string& arguments) const {
+    return run_program(here(), "render " + arguments);
+  }
+  bool is_svg(const std::string& name) const {
+    const std::string text = tests::text_of(here() / name);
+    return text.starts_with("<?xml") && text.ends_with("</svg>\n");
+  }
+
+ private:
+  tests::TemporaryDirectory directory_;
+};
+
+TEST_F(Render, DrawsEveryKindOfAGenome) {
+  for (const std::string kind : {"animat", "development", "motion", "phase"}) {
+    const auto result = render("blob.json --kind " + kind + " --out " + kind + ".svg");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(is_svg(kind + ".svg")) << kind;
+  }
+}
+
+TEST_F(Render, DrawsABody) {
+  EXPECT_EQ(render("strip.json --out a.svg").exit_code, 0);
+  EXPECT_EQ(render("strip.json --kind motion --scene land --out b.svg").exit_code, 0);
+  EXPECT_TRUE(is_svg("a.svg"));
+  EXPECT_TRUE(is_svg("b.svg"));
+}
+
+TEST_F(Render, TellsWhatWasExpectedInOneLine) {
+  const auto refused = [&](const std::string& arguments, const std::string& words) {
+    const auto result = render(arguments);
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    EXPECT_THAT(result.err_lines(), ElementsAre(HasSubstr(words)));
+  };
+  refused("blob.json --out a.jpg", "expected a name that ends in .svg, .png or .pdf");
+  refused("none.json --out a.svg", "none.json");
+  refused("blob.json --out a.svg --kind motion --trial tadpole", "expected larva or adult");
+  refused("blob.json --out a.svg --kind development --at 9999", "expected steps from 0 to 1200");
+  refused("strip.json --out a.svg --kind development", "expected animat, motion or phase");
+}
+
+TEST_F(Render, OverwritesNothingUnasked) {
+  ASSERT_EQ(render("strip.json --out a.svg").exit_code, 0);
+  EXPECT_EQ(render("strip.json --out a.svg").exit_code, 2);
+  EXPECT_EQ(render("strip.json --out a.svg --overwrite").exit_code, 0);
+}
+
+TEST(LastCycle, SnapshotsAreEvenlySpreadUpToTheEndOfTheRun) {
+  const core::Body body = tests::strip_body(20);  // every period is 40
+  core::Scene scene = core::water_scene();
+  scene.run_steps = 1000;  // 200 time units
+  const auto snapshots = last_cycle(body, scene, {}, 4);
+  ASSERT_EQ(snapshots.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) {
+    // Integrator steps of 0.2: the nearest one is at most half a step away.
+    EXPECT_NEAR(snapshots[k].time, 170 + 10.0 * static_cast<double>(k), 0.1 + 1e-9);
+    EXPECT_EQ(snapshots[k].x.size(), body.x.size());
+  }
+}
+
+}  // namespace
+}  // namespace metamorph::evolve
