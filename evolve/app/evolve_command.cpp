@@ -110,6 +110,7 @@ void check_combination(const Arguments& given) {
   refuse("--seed", !given.seed.empty());
   refuse("--population", !given.population.empty());
   refuse("--set", !given.set.empty());
+  refuse("--print", given.print);
   if (!faults.empty()) throw InputError(faults);
 }
 
@@ -119,7 +120,7 @@ void evolve(const Arguments& given) {
     return;
   }
   check_combination(given);
-  if (given.print && given.resume.empty()) {
+  if (given.print) {
     fmt::print("{}", to_toml(read_experiment(given.experiment, overrides_of(given))));
     return;
   }
@@ -162,9 +163,12 @@ void add_evolve_command(CLI::App& app) {
       ->add_option("--threads", given->threads,
                    "threads; default: all. Results do not depend on it")
       ->check(CLI::Range(1, 4096));
-  command->add_option("--set", given->set,
-                      "key=value: replaces any key of the file, as in search.neighbours=10, "
-                      "trials.larva.stage=500, scenes.water.drag_normal=2, scenes.*.run_steps=600");
+  command
+      ->add_option(
+          "--set", given->set,
+          "key=value: replaces any key of the file (may be repeated), as in search.neighbours=10, "
+          "trials.larva.stage=500, scenes.water.drag_normal=2, scenes.*.run_steps=600")
+      ->allow_extra_args(false);
   command->add_flag("--keys", given->keys, "lists all keys with default, meaning and range");
   command->add_flag("--print", given->print,
                     "prints the complete experiment as TOML instead of running it");

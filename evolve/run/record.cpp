@@ -94,8 +94,8 @@ std::unique_ptr<Record> Record::resume(const std::filesystem::path& directory, i
     tables.step();
     if (tables.integer(0) == 0) {
       throw InputError(
-          fmt::format("{}: holds no experiment: the run was stopped before it began, "
-                      "or this is no record of a run",
+          fmt::format("{}: holds no experiment: the run was stopped before it began "
+                      "(delete its directory), or this is no record of a run",
                       database.file().string()));
     }
   }

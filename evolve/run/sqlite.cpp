@@ -41,6 +41,11 @@ void Database::check(int code) {
     case SQLITE_FULL:
       reason += ": make room and go on with --resume; all generations before this one are safe";
       break;
+    case SQLITE_IOERR:
+      reason +=
+          ": is there room, and may a file grow this large? All generations before this one "
+          "are safe: go on with --resume";
+      break;
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
       reason += ": check that the directory exists and can be written";
