@@ -10,7 +10,7 @@ namespace metamorph::core {
 namespace {
 /// Width of the skin, d. A wider one is renewed less often and holds more pairs; results do not
 /// depend on it.
-constexpr double skin = 1.0;
+constexpr double skin = 0.6;
 }  // namespace
 
 template <class T>
@@ -27,8 +27,15 @@ void CollisionList<T>::reset(const Body& body, const Scene& scene,
   const auto groups = static_cast<std::size_t>(groups_);
   x_.resize(groups * width);
   y_.resize(groups * width);
-  pairs_.clear();
-  pairs_.reserve(nodes.size() * edges.size());
+  count_ = 0;
+  // No more pairs than these can come up, so that nothing is allocated while it runs.
+  const std::size_t most = nodes.size() * edges.size() + width;
+  if (pair_node_.size() < most) {
+    pair_node_.resize(most);
+    pair_first_.resize(most);
+    pair_second_.resize(most);
+    pair_threshold_.resize(most);
+  }
 
   // Outline nodes fill the first lanes, in order.
   edges_.clear();
@@ -63,6 +70,27 @@ void CollisionList<T>::reset(const Body& body, const Scene& scene,
       for (const std::size_t second : incident[other]) forbid(second, n);
     }
   }
+  find_close_at_rest();
+}
+
+template <class T>
+void CollisionList<T>::find_close_at_rest() {
+  constexpr auto width = static_cast<std::size_t>(kernels::Lanes<T>::width);
+  const auto groups = static_cast<std::size_t>(groups_);
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    x_[n] = static_cast<T>(body_->x[static_cast<std::size_t>(nodes_[n].node)]);
+    y_[n] = static_cast<T>(body_->y[static_cast<std::size_t>(nodes_[n].node)]);
+  }
+  close_at_rest_.assign(edges_.size() * groups, 0);
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const auto a = edges_[e].first, b = edges_[e].second;
+    for (std::size_t g = 0; g < groups; ++g) {
+      close_at_rest_[e * groups + g] =
+          kernels::near_segment(x_.data() + g * width, y_.data() + g * width, x_[a], y_[a], x_[b],
+                                y_[b], gap_ * T(1.001)) &
+          allowed_[e * groups + g];
+    }
+  }
 }
 
 template <class T>
@@ -79,7 +107,7 @@ template <class T>
 void CollisionList<T>::renew(const kernels::NodeRecord<T>* records) {
   constexpr auto width = static_cast<std::size_t>(kernels::Lanes<T>::width);
   const auto groups = static_cast<std::size_t>(groups_);
-  pairs_.clear();
+  count_ = 0;
   for (std::size_t n = 0; n < groups * width; ++n) {
     x_[n] = records[n].x;
     y_[n] = records[n].y;
@@ -93,28 +121,43 @@ void CollisionList<T>::renew(const kernels::NodeRecord<T>* records) {
                                                  x_[a], y_[a], x_[b], y_[b], reach) &
                            allowed_[e * groups + g];
       for (; near != 0; near &= near - 1) {
-        add(g * width + static_cast<std::size_t>(std::countr_zero(near)), edge);
+        const int lane = std::countr_zero(near);
+        const std::size_t node = g * width + static_cast<std::size_t>(lane);
+        const bool close = (close_at_rest_[e * groups + g] >> lane & 1u) != 0;
+        add(static_cast<std::uint32_t>(node), a, b, close ? distance_at_rest(node, edge) : gap_);
       }
     }
   }
+  while (count_ % width != 0) add(0, 0, 0, T(0));
   valid_ = true;
 }
 
 template <class T>
-void CollisionList<T>::add(std::size_t node, const Edge& edge) {
+T CollisionList<T>::distance_at_rest(std::size_t node, const Edge& edge) const {
   const auto at = [](Index i) { return static_cast<std::size_t>(i); };
   const std::size_t i = at(nodes_[node].node), j = at(edge.a), k = at(edge.b);
-  const auto rest = kernels::nearest_on_segment(body_->x[i], body_->y[i], body_->x[j], body_->y[j],
-                                                body_->x[k], body_->y[k]);
-  pairs_.push_back({static_cast<std::uint32_t>(node), edge.first, edge.second,
-                    std::min(gap_, static_cast<T>(std::sqrt(rest.distance2)))});
+  using Pack = kernels::Lanes<double>;
+  const auto rest =
+      kernels::nearest_on_segment<double>(Pack(body_->x[i]), Pack(body_->y[i]), Pack(body_->x[j]),
+                                          Pack(body_->y[j]), Pack(body_->x[k]), Pack(body_->y[k]));
+  return std::min(gap_, static_cast<T>(std::sqrt(rest.distance2[0])));
 }
 
 template <class T>
-std::span<const kernels::CollisionPair<T>> CollisionList<T>::pairs(
-    const kernels::NodeRecord<T>* records) {
+void CollisionList<T>::add(std::uint32_t node, std::uint32_t first, std::uint32_t second,
+                           T threshold) {
+  pair_node_[count_] = kernels::record_offset<T>(node);
+  pair_first_[count_] = kernels::record_offset<T>(first);
+  pair_second_[count_] = kernels::record_offset<T>(second);
+  pair_threshold_[count_] = threshold;
+  ++count_;
+}
+
+template <class T>
+kernels::CollisionPairs<T> CollisionList<T>::pairs(const kernels::NodeRecord<T>* records) {
   if (stale(records)) renew(records);
-  return pairs_;
+  return {static_cast<int>(count_), pair_node_.data(), pair_first_.data(), pair_second_.data(),
+          pair_threshold_.data()};
 }
 
 template class CollisionList<float>;

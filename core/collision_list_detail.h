@@ -23,7 +23,7 @@ class CollisionList {
              std::span<const std::array<std::uint32_t, 2>> edges);
 
   /// The pairs to test at the records' positions; renews the list if it is stale.
-  std::span<const kernels::CollisionPair<T>> pairs(const kernels::NodeRecord<T>* records);
+  kernels::CollisionPairs<T> pairs(const kernels::NodeRecord<T>* records);
 
  private:
   struct Edge {
@@ -33,7 +33,9 @@ class CollisionList {
 
   bool stale(const kernels::NodeRecord<T>* records) const;
   void renew(const kernels::NodeRecord<T>* records);
-  void add(std::size_t node, const Edge& edge);
+  void find_close_at_rest();
+  T distance_at_rest(std::size_t node, const Edge& edge) const;
+  void add(std::uint32_t node, std::uint32_t first, std::uint32_t second, T threshold);
 
   const Body* body_ = nullptr;
   T gap_ = 0, skin_ = 0;
@@ -42,8 +44,14 @@ class CollisionList {
   std::span<const OutlineNode> nodes_;
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> allowed_;  ///< [edges * groups] lanes that may collide with the edge
-  Aligned<T> x_, y_;                    ///< [groups * width] positions at renewal
-  std::vector<kernels::CollisionPair<T>> pairs_;  ///< by edge, then node
+  std::vector<std::uint32_t>
+      close_at_rest_;  ///< [edges * groups] lanes nearer than the gap at rest
+  Aligned<T> x_, y_;   ///< [groups * width] positions at renewal
+
+  // The pairs, by edge, then node; filled up to whole lane groups.
+  std::size_t count_ = 0;
+  Aligned<std::uint32_t> pair_node_, pair_first_, pair_second_;
+  Aligned<T> pair_threshold_;
 };
 
 extern template class CollisionList<float>;
