@@ -6,18 +6,19 @@
 
 #include "core/body.h"
 #include "kernels/cell_mechanics.h"
+#include "kernels/node_record.h"
 
 namespace metamorph::core {
 
 /// The cells of one developing embryo, in order of age (id ascending). Arrays are padded to whole
-/// lane groups; the padding is at rest in the origin and linked to nobody.
+/// lane groups; what lies in the padding is finite and linked to nobody.
 template <class T>
 struct Colony {
   int count = 0;
   int created = 0;
   int died = 0;
-  std::vector<kernels::CellRecord<T>> cell;
-  std::vector<T> heading_x, heading_y;  ///< orientation as a unit vector
+  std::vector<kernels::NodeRecord<T>> cell, next_cell;  ///< now, and room for the next step
+  std::vector<T> heading_x, heading_y;                  ///< orientation as a unit vector
   std::vector<T> morphogen1, morphogen2;
   std::vector<int> id, mother, birth_step;
 
@@ -25,18 +26,20 @@ struct Colony {
     constexpr int lanes = kernels::cell_lanes;
     const auto padded = static_cast<std::size_t>((capacity + lanes - 1) / lanes * lanes);
     cell.resize(padded);
+    next_cell.resize(padded);
     for (auto* values : {&heading_x, &heading_y, &morphogen1, &morphogen2}) values->resize(padded);
     for (auto* values : {&id, &mother, &birth_step}) values->resize(padded);
   }
 
   /// Back to the founder alone, at the origin, looking along +x.
   void reset() {
-    std::fill(cell.begin(), cell.end(), kernels::CellRecord<T>{});
+    std::fill(cell.begin(), cell.end(), kernels::NodeRecord<T>{});
+    std::fill(next_cell.begin(), next_cell.end(), kernels::NodeRecord<T>{});
     count = created = died = 0;
     add({}, T(1), T(0), T(0), T(0), -1, 0);
   }
 
-  void add(const kernels::CellRecord<T>& record, T x_heading, T y_heading, T first, T second,
+  void add(const kernels::NodeRecord<T>& record, T x_heading, T y_heading, T first, T second,
            int mother_id, int step) {
     const auto i = at(count++);
     cell[i] = record;

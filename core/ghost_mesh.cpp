@@ -70,13 +70,23 @@ void GhostMesh::redirect(int f, int from, int to) {
   at(f).across[static_cast<std::size_t>(corner_towards(f, from))] = to;
 }
 
+bool GhostMesh::are_neighbours(Side corner, Index other) const {
+  const Index vertex = this->vertex(corner.face, corner.corner);
+  int f = corner.face;
+  do {
+    if (corner_of(f, other) >= 0) return true;
+    f = across(f, next(corner_of(f, vertex)));
+  } while (f != corner.face);
+  return false;
+}
+
 bool GhostMesh::flip(Side side) {
   const int f = side.face, i = side.corner;
   const int g = across(f, i), j = corner_towards(g, f);
   const auto [a, b, c, d] = around(side);
+  if (are_neighbours({f, i}, d)) return false;
   const int beyond_bc = across(f, next(i)), beyond_ca = across(f, before(i));
   const int beyond_ad = across(g, next(j)), beyond_db = across(g, before(j));
-  if (beyond_bc == beyond_db || beyond_ca == beyond_ad) return false;
   at(f) = {{c, a, d}, {beyond_ad, g, beyond_ca}};
   at(g) = {{c, d, b}, {beyond_db, beyond_bc, f}};
   redirect(beyond_ad, g, f);

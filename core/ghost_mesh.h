@@ -52,7 +52,7 @@ class GhostMesh {
   Quadrilateral around(Side side) const;
 
   /// Replaces the edge a-b of faces f (the side's) and g by c-d: f = (c, a, d), g = (c, d, b).
-  /// False and nothing done if a or b would be left with two neighbours.
+  /// False and nothing done if c and d are neighbours already.
   bool flip(Side side);
   /// Puts a new vertex into a face; it is corner 2 of the face and of the two last ones.
   void split(int f, Index vertex);
@@ -68,6 +68,7 @@ class GhostMesh {
 
  private:
   Face& at(int f) { return faces_[static_cast<std::size_t>(f)]; }
+  bool are_neighbours(Side corner, Index other) const;
   void redirect(int f, int from, int to);
   void erase_face(int f);
 

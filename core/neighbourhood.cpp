@@ -51,7 +51,8 @@ void Neighbourhood::fill_slots(int cells) {
     first_slot_.push_back(first_slot_.back() + static_cast<int>(slots));
     for (std::size_t s = 0; s < slots; ++s) {
       for (int i = g * lanes; i < (g + 1) * lanes; ++i) {
-        slot_neighbour_.push_back(i < cells && s < of(i).size() ? of(i)[s] : i);
+        const int other = i < cells && s < of(i).size() ? of(i)[s] : i;
+        slot_neighbour_.push_back(static_cast<std::uint32_t>(other) * record_bytes_);
       }
     }
   }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -14,6 +16,10 @@ namespace metamorph::core {
 /// cell's ascending list of neighbours, and the same lists arranged for the mechanics kernel.
 class Neighbourhood {
  public:
+  /// record_bytes: size of the records that the mechanics kernel works on.
+  explicit Neighbourhood(std::size_t record_bytes)
+      : record_bytes_(static_cast<std::uint32_t>(record_bytes)) {}
+
   /// Starts a new embryo.
   void clear() { triangulation_.clear(); }
 
@@ -39,11 +45,13 @@ class Neighbourhood {
   void list_neighbours(std::size_t cells);
   void fill_slots(int cells);
 
+  std::uint32_t record_bytes_;
   TriangulationRepair triangulation_;
   LinkSelection selection_;
   std::vector<std::array<Index, 2>> links_;
-  std::vector<int> start_, neighbour_;            // lists of neighbours, one after the other
-  std::vector<int> first_slot_, slot_neighbour_;  // see kernels::CellRings
+  std::vector<int> start_, neighbour_;  // lists of neighbours, one after the other
+  std::vector<int> first_slot_;         // see kernels::CellRings
+  std::vector<std::uint32_t> slot_neighbour_;
 };
 
 }  // namespace metamorph::core

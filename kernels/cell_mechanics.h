@@ -1,16 +1,12 @@
 #pragma once
 
-#include <cmath>
+#include <cstdint>
+
+#include "kernels/node_record.h"
 
 namespace metamorph::kernels {
 
-/// Position and velocity of a cell in one 16-byte (float) record, fetched whole by its neighbours.
-template <class T>
-struct alignas(4 * sizeof(T)) CellRecord {
-  T x, y, vx, vy;
-};
-
-/// Cells that are computed side by side.
+/// Cells of a group: computed side by side, in one register or in a few independent ones.
 inline constexpr int cell_lanes = 16;
 
 /// Linked neighbours of groups of cell_lanes consecutive cells. Group g has the slots
@@ -19,8 +15,8 @@ inline constexpr int cell_lanes = 16;
 /// cell itself (which exerts no force).
 struct CellRings {
   int groups;
-  const int* first_slot;  ///< [groups + 1]
-  const int* neighbour;   ///< [first_slot[groups] * cell_lanes]
+  const int* first_slot;           ///< [groups + 1]
+  const std::uint32_t* neighbour;  ///< [first_slot[groups] * cell_lanes] record_offset()s
 };
 
 /// MODEL section 2: damped springs of rest length 1 d between linked cells, drag; unit masses.
@@ -32,65 +28,53 @@ struct CellMechanics {
   T drag;
 };
 
-/// Force of the springs on every cell, summed in ascending order of neighbours: each cell sums its
-/// own ring, so that nothing is scattered and each spring is computed from both its ends, to equal
-/// and opposite bits. Coincident centres exert no force. force_x, force_y:
-/// [groups * cell_lanes], and as many records.
+/// Force of the spring from each cell of a pack to its neighbour, divided by its length: multiply
+/// by (dx, dy). Coincident centres exert none.
 template <class T>
-inline void cell_spring_forces(const CellMechanics<T>& mechanics, const CellRings& rings,
-                               const CellRecord<T>* cell, T* force_x, T* force_y) {
-  for (int g = 0; g < rings.groups; ++g) {
-    const CellRecord<T>* const own = cell + g * cell_lanes;
-    T x[cell_lanes], y[cell_lanes], vx[cell_lanes], vy[cell_lanes];
-    T sum_x[cell_lanes] = {}, sum_y[cell_lanes] = {};
-    for (int lane = 0; lane < cell_lanes; ++lane) {
-      x[lane] = own[lane].x;
-      y[lane] = own[lane].y;
-      vx[lane] = own[lane].vx;
-      vy[lane] = own[lane].vy;
-    }
-    for (int s = rings.first_slot[g]; s < rings.first_slot[g + 1]; ++s) {
-      const int* const neighbour = rings.neighbour + s * cell_lanes;
-      T px[cell_lanes], py[cell_lanes], pvx[cell_lanes], pvy[cell_lanes];
-      for (int lane = 0; lane < cell_lanes; ++lane) {
-        const CellRecord<T>& other = cell[neighbour[lane]];
-        px[lane] = other.x;
-        py[lane] = other.y;
-        pvx[lane] = other.vx;
-        pvy[lane] = other.vy;
-      }
-#pragma omp simd
-      for (int lane = 0; lane < cell_lanes; ++lane) {
-        const T dx = px[lane] - x[lane];
-        const T dy = py[lane] - y[lane];
-        const T approach = (pvx[lane] - vx[lane]) * dx + (pvy[lane] - vy[lane]) * dy;
-        const T square = dx * dx + dy * dy;
-        const T inverse = square > T(0) ? T(1) / std::sqrt(square) : T(0);
-        const T pull = mechanics.stiffness * (T(1) - inverse) +
-                       mechanics.damping * approach * (inverse * inverse);
-        sum_x[lane] += pull * dx;
-        sum_y[lane] += pull * dy;
-      }
-    }
-    for (int lane = 0; lane < cell_lanes; ++lane) {
-      force_x[g * cell_lanes + lane] = sum_x[lane];
-      force_y[g * cell_lanes + lane] = sum_y[lane];
-    }
-  }
+inline Lanes<T> cell_spring_tension(const CellMechanics<T>& mechanics, Lanes<T> dx, Lanes<T> dy,
+                                    Lanes<T> dvx, Lanes<T> dvy) {
+  const Lanes<T> zero(T(0)), stiffness(mechanics.stiffness), damping(mechanics.damping);
+  const Lanes<T> square = fma(dx, dx, dy * dy);
+  const Lanes<T> inverse = select(square > zero, Lanes<T>(T(1)) / sqrt(square), zero);
+  const Lanes<T> rate = fma(dvx, dx, dvy * dy) * (inverse * inverse);  // (dv . d) / l^2
+  return fma(damping, rate, fma(-stiffness, inverse, stiffness));      // c rate + k (1 - 1/l)
 }
 
-/// One symplectic Euler step from the spring forces: v += h (F - drag v), then x += h v.
+/// One symplectic Euler step, v += h (F - drag v), then x += h v, from one array of
+/// groups * cell_lanes records into another. Each cell sums its own ring in ascending order of
+/// neighbours, so that nothing is scattered and each spring is computed from both its ends, to
+/// equal and opposite bits.
 template <class T>
-inline void move_cells(const CellMechanics<T>& mechanics, int groups, const T* force_x,
-                       const T* force_y, CellRecord<T>* cell) {
-#pragma omp simd
-  for (int i = 0; i < groups * cell_lanes; ++i) {
-    const T vx = cell[i].vx + mechanics.step * (force_x[i] - mechanics.drag * cell[i].vx);
-    const T vy = cell[i].vy + mechanics.step * (force_y[i] - mechanics.drag * cell[i].vy);
-    cell[i].vx = vx;
-    cell[i].vy = vy;
-    cell[i].x += mechanics.step * vx;
-    cell[i].y += mechanics.step * vy;
+inline void step_cells(const CellMechanics<T>& mechanics, const CellRings& rings,
+                       const NodeRecord<T>* from, NodeRecord<T>* to) {
+  constexpr int width = Lanes<T>::width;
+  constexpr int packs = cell_lanes / width;
+  static_assert(packs * width == cell_lanes);
+  const Lanes<T> step(mechanics.step), drag(mechanics.drag);
+  for (int g = 0; g < rings.groups; ++g) {
+    NodePack<T> own[packs];
+    Lanes<T> force_x[packs], force_y[packs];
+    for (int p = 0; p < packs; ++p) {
+      own[p] = load<T>(from + g * cell_lanes + p * width);
+      force_x[p] = -drag * own[p].vx;
+      force_y[p] = -drag * own[p].vy;
+    }
+    for (int s = rings.first_slot[g]; s < rings.first_slot[g + 1]; ++s) {
+      for (int p = 0; p < packs; ++p) {
+        const NodePack<T> other = gather<T>(from, rings.neighbour + s * cell_lanes + p * width);
+        const Lanes<T> dx = other.x - own[p].x, dy = other.y - own[p].y;
+        const Lanes<T> tension =
+            cell_spring_tension(mechanics, dx, dy, other.vx - own[p].vx, other.vy - own[p].vy);
+        force_x[p] = fma(tension, dx, force_x[p]);
+        force_y[p] = fma(tension, dy, force_y[p]);
+      }
+    }
+    for (int p = 0; p < packs; ++p) {
+      const Lanes<T> vx = fma(step, force_x[p], own[p].vx);
+      const Lanes<T> vy = fma(step, force_y[p], own[p].vy);
+      store<T>({fma(step, vx, own[p].x), fma(step, vy, own[p].y), vx, vy},
+               to + g * cell_lanes + p * width);
+    }
   }
 }
 

@@ -175,6 +175,21 @@ template <class T>
     }
     return;
   }
+#elif defined(__AVX2__) && defined(__FMA__)
+  if constexpr (sizeof(T) == 4) {
+    const __m256 xy_low = _mm256_unpacklo_ps(pack.x.v, pack.y.v);
+    const __m256 xy_high = _mm256_unpackhi_ps(pack.x.v, pack.y.v);
+    const __m256 uv_low = _mm256_unpacklo_ps(pack.vx.v, pack.vy.v);
+    const __m256 uv_high = _mm256_unpackhi_ps(pack.vx.v, pack.vy.v);
+    const __m256 row[4] = {
+        _mm256_shuffle_ps(xy_low, uv_low, 0x44), _mm256_shuffle_ps(xy_low, uv_low, 0xee),
+        _mm256_shuffle_ps(xy_high, uv_high, 0x44), _mm256_shuffle_ps(xy_high, uv_high, 0xee)};
+    for (int q = 0; q < 4; ++q) {
+      _mm_store_ps(&records[q].x, _mm256_castps256_ps128(row[q]));
+      _mm_store_ps(&records[q + 4].x, _mm256_extractf128_ps(row[q], 1));
+    }
+    return;
+  }
 #endif
   for (int l = 0; l < Lanes<T>::width; ++l) {
     records[l] = {pack.x[l], pack.y[l], pack.vx[l], pack.vy[l]};

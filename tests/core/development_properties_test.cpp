@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/delaunay.h"
+#include "core/developer_detail.h"
 #include "core/development.h"
 #include "core/links.h"
 #include "tests/core/network_builder.h"
@@ -85,6 +86,27 @@ TEST(RandomDevelopment, TakingAnEmbryoOutLeavesNoTrace) {
     grown = grown || once[i][0].cell_count() > 50;
   }
   EXPECT_TRUE(grown);
+}
+
+// One update decides alike in either precision unless a network's output lies within some 1e-6 of
+// a threshold, and within the first few updates positions differ by little more than that.
+TEST(RandomDevelopment, FloatFollowsDoubleAtFirst) {
+  const std::vector<int> stages = {100};
+  Developer<float> in_float({});
+  Developer<double> in_double({});
+  int grown = 0;
+  for (const Network& network : population(13, 100)) {
+    const Embryo a = in_float(network, stages).front(), b = in_double(network, stages).front();
+    ASSERT_EQ(a.id, b.id);
+    ASSERT_EQ(a.links, b.links);
+    for (std::size_t i = 0; i < a.x.size(); ++i) {
+      EXPECT_NEAR(a.x[i], b.x[i], 1e-4);
+      EXPECT_NEAR(a.y[i], b.y[i], 1e-4);
+      EXPECT_NEAR(a.phase[i], b.phase[i], 1e-4);
+    }
+    grown += a.cell_count() > 4;
+  }
+  EXPECT_GT(grown, 10);
 }
 
 TEST(RandomDevelopment, BatchOrderAndThreadsDoNotChangeABit) {

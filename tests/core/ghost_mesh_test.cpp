@@ -81,7 +81,7 @@ TEST(GhostMesh, AFlipOfAHullEdgeOpensTheFaceBehindIt) {
   EXPECT_EQ(faces_of(mesh), (Faces{{0, 4, 3}, {1, 2, 4}, {2, 3, 4}}));
 }
 
-TEST(GhostMesh, RefusesAFlipThatWouldLeaveAVertexWithTwoNeighbours) {
+TEST(GhostMesh, RefusesAFlipThatWouldDoubleAnEdge) {
   GhostMesh mesh;
   mesh.connect(fan, 5);
   mesh.flip(side_of(mesh, 4, 0));  // 4 is left with 1, 2 and 3

@@ -116,6 +116,25 @@ TEST(TriangulationRepair, BirthsAndDeathsInsideAndOnTheHullAreRepairs) {
   EXPECT_EQ(repair.rebuilds(), 1);
 }
 
+// Taking 2 and 3 away leaves three points on a line: flipped off the hull, they would be there
+// twice.
+TEST(TriangulationRepair, WhatIsLeftOnAStraightLineIsBuiltAnew) {
+  for (const double bend : {0.0, 1e-9, -1e-9}) {
+    Swarm swarm(7);
+    for (const auto& [x, y] : {std::pair{0., 0.}, {1., bend}, {1.5, 2.}, {0.5, -2.}, {2., 0.}}) {
+      swarm.add(x, y);
+    }
+    TriangulationRepair repair;
+    ASSERT_TRUE(follows(repair, swarm));
+    swarm.remove(2);
+    EXPECT_TRUE(follows(repair, swarm));
+    swarm.remove(2);
+    EXPECT_TRUE(follows(repair, swarm));
+    swarm.add(1, 1);
+    EXPECT_TRUE(follows(repair, swarm));
+  }
+}
+
 TEST(TriangulationRepair, WithoutMotionNothingChanges) {
   Swarm swarm(5);
   for (int i = 0; i < 50; ++i) swarm.add(swarm.number(4), swarm.number(4));
