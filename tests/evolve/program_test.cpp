@@ -115,7 +115,7 @@ TEST_F(ProgramTest, KilledAtAnyMomentAndResumedIsTheSame) {
   const auto expected = contents(path("whole"));
   std::mt19937 random(1);  // the moments; what is tested holds for all of them
   for (int round = 0; round < 6; ++round) {
-    const std::string out = path("killed-" + std::to_string(round));
+    const std::string out = path(fmt::format("killed-{}", round));
     std::vector<std::string> arguments = {"evolve", file, "--out", out, "--threads", "1"};
     for (int kills = 0; kills < 4; ++kills) {
       Program program(arguments, directory_);
@@ -163,7 +163,7 @@ TEST_F(ProgramTest, SecondInterruptStopsAtOnceAndLosesNothing) {
   // A first signal that comes before the first generation ends the run in good order; then the
   // second comes too late to show anything, and the next try is made.
   for (int tries = 0; tries < 50; ++tries) {
-    const std::string name = "a" + std::to_string(tries);
+    const std::string name = fmt::format("a{}", tries);
     // The first generation would take minutes.
     Program program({"evolve", experiment(SearchKind::simple), "--out", path(name), "--threads",
                      "1", "--set", "scenes.*.run_steps=1000000"},
