@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -29,7 +31,8 @@ inline std::vector<Point> jittered(std::vector<Point> points, double amount = 1e
 }
 
 /// Delaunay faces by definition: counter-clockwise triples with no other point inside their
-/// circumcircle. For points in general position, in O(n^4).
+/// circumcircle. In O(n^4); throws unless the points are in general position (a side would have
+/// more than two faces).
 inline std::vector<std::array<core::Index, 3>> delaunay_faces(const std::vector<Point>& points) {
   const int n = static_cast<int>(points.size());
   const auto at = [&](int i) { return points[static_cast<std::size_t>(i)]; };
@@ -58,6 +61,13 @@ inline std::vector<std::array<core::Index, 3>> delaunay_faces(const std::vector<
           faces.push_back({a, c, b});
         }
       }
+    }
+  }
+  std::map<std::array<core::Index, 2>, int> uses;
+  for (const auto& face : faces) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(face[k], face[(k + 1) % 3]);
+      if (++uses[{low, high}] > 2) throw std::logic_error("four points on a circle");
     }
   }
   return faces;
