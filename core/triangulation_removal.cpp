@@ -7,10 +7,21 @@ namespace {
 
 constexpr Index ghost = GhostMesh::ghost;
 
+double squared_distance(Point a, Point b) {
+  return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
+}
+
+/// The corner at the largest angle: in a face that has just turned over, the one that passed
+/// through the edge opposite it.
+int widest_corner(Point a, Point b, Point c) {
+  const double bc = squared_distance(b, c), ca = squared_distance(c, a),
+               ab = squared_distance(a, b);
+  return bc >= ca && bc >= ab ? 0 : ca >= ab ? 1 : 2;
+}
+
 }  // namespace
 
-/// Takes out the points that are no longer there and renames the others. The points are still at
-/// their old positions, where the mesh is a triangulation.
+/// Takes out the points that are no longer there and renames the others.
 bool TriangulationRepair::remove_dead(std::span<const Index> previous) {
   name_.assign(points_.size(), -1);
   Index survivors = 0;
@@ -24,6 +35,29 @@ bool TriangulationRepair::remove_dead(std::span<const Index> previous) {
     if (name_[v] < 0 && !remove(static_cast<Index>(v))) return false;
   }
   mesh_.rename(name_);
+  for (std::size_t v = 0; v < name_.size(); ++v) {
+    if (name_[v] >= 0) points_[static_cast<std::size_t>(name_[v])] = points_[v];
+  }
+  return true;
+}
+
+/// Takes out points until the motion of the others turns no face inside out.
+bool TriangulationRepair::remove_folding() {
+  constexpr int most = 16;  // beyond, building anew is as fast
+  const auto target = [this](Index v) { return target_[static_cast<std::size_t>(v)]; };
+  for (int f = 0; f < mesh_.face_count();) {
+    const auto [a, b, c] = mesh_.face(f).vertex;
+    if (a == ghost || b == ghost || c == ghost ||
+        orientation(target(a), target(b), target(c)) > 0) {
+      ++f;
+      continue;
+    }
+    const int corner = widest_corner(target(a), target(b), target(c));
+    inserted_.push_back(mesh_.vertex(f, corner));
+    if (inserted_.size() > most || inserted_.size() + 3 > target_.size()) return false;
+    if (!remove(inserted_.back())) return false;
+    f = 0;
+  }
   return true;
 }
 

@@ -11,21 +11,19 @@ namespace {
 
 constexpr Index ghost = GhostMesh::ghost;
 
-double squared_distance(Point a, Point b) {
-  return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
-}
-
 }  // namespace
 
 void TriangulationRepair::update(std::span<const double> x, std::span<const double> y,
                                  std::span<const Index> previous) {
   assert(x.size() == y.size() && x.size() == previous.size());
   changed_ = false;
-  bool repaired = !mesh_.empty() && remove_dead(previous);  // still at the old positions
-  points_.resize(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) points_[i] = {x[i], y[i]};
-  repaired = repaired && repair(previous);
-  if (!repaired) {
+  inserted_.clear();
+  target_.resize(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) target_[i] = {x[i], y[i]};
+  // Points are taken out at their old positions, where the mesh is a triangulation.
+  const bool prepared = !mesh_.empty() && remove_dead(previous) && remove_folding();
+  points_.swap(target_);
+  if (!prepared || !repair(previous)) {
     rebuild(x, y);
   } else if (changed_) {
     mesh_.list_edges(static_cast<Index>(x.size()), edges_);
@@ -58,46 +56,12 @@ std::vector<std::array<Index, 3>> TriangulationRepair::faces() const {
 }
 
 bool TriangulationRepair::repair(std::span<const Index> previous) {
-  if (!unfold() || !settle_all() || !hull_winds_once()) return false;
+  if (!settle_all() || !hull_winds_once()) return false;
   const auto first_new = std::find(previous.begin(), previous.end(), -1) - previous.begin();
   for (auto i = static_cast<Index>(first_new); i < static_cast<Index>(previous.size()); ++i) {
-    if (!insert(i)) return false;
+    inserted_.push_back(i);
   }
-  return true;
-}
-
-/// Flips away faces that are not counter-clockwise. False if some stay.
-bool TriangulationRepair::unfold() {
-  for (int round = 0; round < 8; ++round) {
-    bool folded = false, progress = false;
-    for (int f = 0; f < mesh_.face_count(); ++f) {
-      const auto [a, b, c] = mesh_.face(f).vertex;
-      if (a == ghost || b == ghost || c == ghost || orientation_of(a, b, c) > 0) continue;
-      folded = true;
-      progress = unfold(f) || progress;
-    }
-    if (!folded) return true;
-    if (!progress) return false;
-  }
-  return false;
-}
-
-/// A face that has just turned over is thin, and the corner that passed through the edge opposite
-/// it is the one with the longest such edge. That edge is flipped if both new faces are sound.
-bool TriangulationRepair::unfold(int f) {
-  int corner = 0;
-  double longest = -1;
-  for (int i = 0; i < 3; ++i) {
-    const auto [a, b, c, d] = mesh_.around({f, i});
-    const double length = squared_distance(point(a), point(b));
-    if (length > longest) {
-      longest = length;
-      corner = i;
-    }
-  }
-  const auto [a, b, c, d] = mesh_.around({f, corner});
-  if (d != ghost && (orientation_of(c, a, d) <= 0 || orientation_of(c, d, b) <= 0)) return false;
-  return flip({f, corner});
+  return std::all_of(inserted_.begin(), inserted_.end(), [this](Index i) { return insert(i); });
 }
 
 /// Puts a point into the face around it, in a Delaunay triangulation. False if it lies on an edge.

@@ -12,9 +12,10 @@ namespace metamorph::core {
 /// A Delaunay triangulation that follows its points: renewed from the one before instead of from
 /// nothing, and always with the edges and faces that triangulate() gives.
 ///
-/// An update (1) takes out points that are gone, (2) flips away faces that the motion turned inside
-/// out, (3) flips edges until each is locally Delaunay and the hull convex (Lawson 1977), (4) puts
-/// each new point into the face it lies in and flips around it. That all faces are
+/// An update (1) takes out the points that are gone and those whose motion would turn a face inside
+/// out, (2) moves the others, (3) flips edges until each is locally Delaunay and the hull convex
+/// (Lawson 1977), (4) puts each new point, and each of those that moved too far, into the face it
+/// lies in and flips around it. That all faces are
 /// counter-clockwise and that the hull is convex and winds once makes the result a triangulation;
 /// that every edge is locally Delaunay makes it the Delaunay triangulation. Both are checked, by
 /// exact predicates. Whatever cannot be repaired this way is built anew by triangulate().
@@ -40,10 +41,9 @@ class TriangulationRepair {
 
   bool repair(std::span<const Index> previous);
   bool remove_dead(std::span<const Index> previous);
+  bool remove_folding();
   bool remove(Index vertex);
   bool shorten_ring(Index vertex, int start);
-  bool unfold();
-  bool unfold(int face);
   bool insert(Index vertex);
   int face_around(Point target) const;
   bool settle_all();
@@ -61,8 +61,10 @@ class TriangulationRepair {
     return orientation(point(a), point(b), point(c));
   }
 
-  std::vector<Point> points_;
-  GhostMesh mesh_;  // empty where points coincide or all lie on a straight line
+  std::vector<Point> points_;    // where the mesh is
+  std::vector<Point> target_;    // where it goes
+  std::vector<Index> inserted_;  // points that are out of the mesh
+  GhostMesh mesh_;               // empty where points coincide or all lie on a straight line
   std::vector<Side> doubtful_;
   std::vector<Index> name_;
   std::vector<std::array<Index, 2>> edges_;
