@@ -110,22 +110,32 @@ class Developer {
       colony_.heading_x[at(i)] = next_x_[at(i)];
       colony_.heading_y[at(i)] = next_y_[at(i)];
     }
+    // After deaths the lists of neighbours speak of other numbers.
+    const auto asked = [&, died = changed](int i) {
+      return died ? std::span<const int>() : neighbourhood_.of(i);
+    };
     for (int i = 0; i < mothers && colony_.count < rules_.max_cells; ++i) {
-      if (willing_[at(i)] && divide(i, step)) changed = true;
+      if (willing_[at(i)] && divide(i, step, asked(i))) changed = true;
     }
     return changed;
   }
 
-  /// Puts a daughter 1 d from the mother in her direction, if there is space.
-  bool divide(int mother, int step) {
+  /// Puts a daughter 1 d from the mother in her direction, if there is space. neighbours: cells to
+  /// ask first, who mostly are the ones in the way.
+  bool divide(int mother, int step, std::span<const int> neighbours) {
     const auto& cell = colony_.cell[at(mother)];
     const T x = cell.x + colony_.heading_x[at(mother)];
     const T y = cell.y + colony_.heading_y[at(mother)];
     const T space = static_cast<T>(rules_.division_space);
-    for (int i = 0; i < colony_.count; ++i) {
-      if (i == mother) continue;
+    const auto in_the_way = [&](int i) {
       const T dx = colony_.cell[at(i)].x - x, dy = colony_.cell[at(i)].y - y;
-      if (dx * dx + dy * dy <= space * space) return false;
+      return dx * dx + dy * dy <= space * space;
+    };
+    for (const int i : neighbours) {
+      if (in_the_way(i)) return false;
+    }
+    for (int i = 0; i < colony_.count; ++i) {
+      if (in_the_way(i) && i != mother) return false;
     }
     colony_.add({x, y, cell.vx, cell.vy}, colony_.heading_x[at(mother)],
                 colony_.heading_y[at(mother)], colony_.morphogen1[at(mother)],

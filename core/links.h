@@ -30,10 +30,14 @@ class LinkSelection {
     std::array<Index, 2> edge;
   };
   Index root(Index i);
+  bool join_components(std::span<const double> x, std::span<const double> y,
+                       std::span<const std::array<Index, 2>> edges,
+                       std::vector<std::array<Index, 2>>& links);
 
   std::vector<Index> parent_;
   std::vector<LongEdge> long_edges_;
-  std::vector<char> is_short_;  // [edges]
+  std::vector<unsigned char> is_short_;   // [edges]
+  std::vector<unsigned char> has_lower_;  // [cells] has a short link to a lower cell
   bool short_ones_suffice_ = false;
 };
 

@@ -41,19 +41,31 @@ void Neighbourhood::list_neighbours(std::size_t cells) {
 void Neighbourhood::fill_slots(int cells) {
   constexpr int lanes = kernels::cell_lanes;
   const int groups = (cells + lanes - 1) / lanes;
+  const auto degree = [this](int i) {
+    return start_[static_cast<std::size_t>(i) + 1] - start_[static_cast<std::size_t>(i)];
+  };
   first_slot_.assign(1, 0);
-  slot_neighbour_.clear();
   for (int g = 0; g < groups; ++g) {
-    std::size_t slots = 0;
+    int slots = 0;
     for (int i = g * lanes; i < std::min(cells, (g + 1) * lanes); ++i) {
-      slots = std::max(slots, of(i).size());
+      slots = std::max(slots, degree(i));
     }
-    first_slot_.push_back(first_slot_.back() + static_cast<int>(slots));
-    for (std::size_t s = 0; s < slots; ++s) {
-      for (int i = g * lanes; i < (g + 1) * lanes; ++i) {
-        const int other = i < cells && s < of(i).size() ? of(i)[s] : i;
-        slot_neighbour_.push_back(static_cast<std::uint32_t>(other) * record_bytes_);
-      }
+    first_slot_.push_back(first_slot_.back() + slots);
+  }
+  slot_neighbour_.resize(static_cast<std::size_t>(first_slot_.back() * lanes));
+  for (int i = 0; i < groups * lanes; ++i) {
+    const int g = i / lanes;
+    const int slots =
+        first_slot_[static_cast<std::size_t>(g) + 1] - first_slot_[static_cast<std::size_t>(g)];
+    std::uint32_t* slot =
+        slot_neighbour_.data() + first_slot_[static_cast<std::size_t>(g)] * lanes + i % lanes;
+    const int linked = i < cells ? degree(i) : 0;
+    const int* const ring = linked > 0 ? of(i).data() : nullptr;
+    for (int s = 0; s < linked; ++s, slot += lanes) {
+      *slot = static_cast<std::uint32_t>(ring[s]) * record_bytes_;
+    }
+    for (int s = linked; s < slots; ++s, slot += lanes) {
+      *slot = static_cast<std::uint32_t>(i) * record_bytes_;
     }
   }
 }

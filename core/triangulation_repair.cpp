@@ -107,12 +107,20 @@ bool TriangulationRepair::is_illegal(Side side) const {
 
 /// Flips until no edge is illegal. False if that takes suspiciously long.
 bool TriangulationRepair::settle_all() {
-  doubtful_.clear();
+  // Each edge once; collected first, since which of its two faces comes first is a toss-up.
+  doubtful_.resize(3 * static_cast<std::size_t>(mesh_.face_count()));
+  std::size_t count = 0;
   for (int f = 0; f < mesh_.face_count(); ++f) {
     for (int i = 0; i < 3; ++i) {
-      if (f < mesh_.across(f, i) && is_illegal({f, i})) doubtful_.push_back({f, i});
+      doubtful_[count] = {f, i};
+      count += f < mesh_.across(f, i);
     }
   }
+  std::size_t illegal = 0;
+  for (std::size_t e = 0; e < count; ++e) {
+    if (is_illegal(doubtful_[e])) doubtful_[illegal++] = doubtful_[e];
+  }
+  doubtful_.resize(illegal);
   return settle_doubtful();
 }
 
