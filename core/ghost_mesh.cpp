@@ -13,7 +13,7 @@ bool GhostMesh::connect(std::span<const std::array<Index, 3>> triangles, Index c
   std::vector<int> first(vertices, -1), following(3 * triangles.size());
   for (const auto& [a, b, c] : triangles) {
     const int f = face_count();
-    faces_.push_back({{a, b, c}, {-1, -1, -1}});
+    faces_.push_back({{a, b, c}, {}});
     for (int corner = 0; corner < 3; ++corner) {
       const auto start = static_cast<std::size_t>(vertex(f, next(corner)));
       following[static_cast<std::size_t>(3 * f + corner)] = first[start];
@@ -34,90 +34,76 @@ bool GhostMesh::connect(std::span<const std::array<Index, 3>> triangles, Index c
         twin = following[static_cast<std::size_t>(twin)];
       }
       if (twin >= 0) {
-        at(f).across[static_cast<std::size_t>(corner)] = twin / 3;
+        join({f, corner}, {twin / 3, twin % 3});
       } else {
-        at(f).across[static_cast<std::size_t>(corner)] = face_count();
         leaving[static_cast<std::size_t>(start)] = face_count();
-        faces_.push_back({{ghost, end, start}, {f, -1, -1}});
+        faces_.push_back({{ghost, end, start}, {}});
+        join({f, corner}, {face_count() - 1, 0});
       }
     }
   }
   for (int g = real_faces; g < face_count(); ++g) {
-    const int after = leaving[static_cast<std::size_t>(vertex(g, 1))];
-    at(g).across[2] = after;
-    at(after).across[1] = g;
+    join({g, 2}, {leaving[static_cast<std::size_t>(vertex(g, 1))], 1});
   }
   return true;
 }
 
-int GhostMesh::corner_of(int f, Index vertex) const {
-  const auto& v = face(f).vertex;
-  return v[0] == vertex ? 0 : v[1] == vertex ? 1 : v[2] == vertex ? 2 : -1;
-}
-
-int GhostMesh::corner_towards(int f, int g) const {
-  const auto& across = face(f).across;
-  return across[0] == g ? 0 : across[1] == g ? 1 : 2;
-}
-
-GhostMesh::Quadrilateral GhostMesh::around(Side side) const {
-  const int g = across(side.face, side.corner);
-  return {vertex(side.face, next(side.corner)), vertex(side.face, before(side.corner)),
-          vertex(side.face, side.corner), vertex(g, corner_towards(g, side.face))};
-}
-
-void GhostMesh::redirect(int f, int from, int to) {
-  at(f).across[static_cast<std::size_t>(corner_towards(f, from))] = to;
-}
-
 bool GhostMesh::are_neighbours(Side corner, Index other) const {
-  const Index vertex = this->vertex(corner.face, corner.corner);
-  int f = corner.face;
+  const Index vertex = this->vertex(corner.face(), corner.corner());
+  int f = corner.face();
   do {
     if (corner_of(f, other) >= 0) return true;
     f = across(f, next(corner_of(f, vertex)));
-  } while (f != corner.face);
+  } while (f != corner.face());
   return false;
 }
 
 bool GhostMesh::flip(Side side) {
-  const int f = side.face, i = side.corner;
-  const int g = across(f, i), j = corner_towards(g, f);
   const auto [a, b, c, d] = around(side);
-  if (are_neighbours({f, i}, d)) return false;
-  const int beyond_bc = across(f, next(i)), beyond_ca = across(f, before(i));
-  const int beyond_ad = across(g, next(j)), beyond_db = across(g, before(j));
-  at(f) = {{c, a, d}, {beyond_ad, g, beyond_ca}};
-  at(g) = {{c, d, b}, {beyond_db, beyond_bc, f}};
-  redirect(beyond_ad, g, f);
-  redirect(beyond_bc, f, g);
+  if (are_neighbours(side, d)) return false;
+  const int f = side.face(), i = side.corner();
+  const int g = twin(side).face(), j = twin(side).corner();
+  const Side beyond_bc = twin({f, next(i)}), beyond_ca = twin({f, before(i)});
+  const Side beyond_ad = twin({g, next(j)}), beyond_db = twin({g, before(j)});
+  at(f).vertex = {c, a, d};
+  at(g).vertex = {c, d, b};
+  join({f, 0}, beyond_ad);
+  join({f, 1}, {g, 2});
+  join({f, 2}, beyond_ca);
+  join({g, 0}, beyond_db);
+  join({g, 1}, beyond_bc);
   return true;
 }
 
 void GhostMesh::split(int f, Index vertex) {
   const auto [a, b, c] = face(f).vertex;
-  const auto [beyond_bc, beyond_ca, beyond_ab] = face(f).across;
+  const auto [beyond_bc, beyond_ca, beyond_ab] = face(f).twin;
   const int f1 = face_count(), f2 = f1 + 1;
-  at(f) = {{a, b, vertex}, {f1, f2, beyond_ab}};
-  faces_.push_back({{b, c, vertex}, {f2, f, beyond_bc}});
-  faces_.push_back({{c, a, vertex}, {f, f1, beyond_ca}});
-  redirect(beyond_bc, f, f1);
-  redirect(beyond_ca, f, f2);
+  at(f).vertex = {a, b, vertex};
+  faces_.push_back({{b, c, vertex}, {}});
+  faces_.push_back({{c, a, vertex}, {}});
+  join({f, 0}, {f1, 1});
+  join({f1, 0}, {f2, 1});
+  join({f2, 0}, {f, 1});
+  join({f, 2}, beyond_ab);
+  join({f1, 2}, beyond_bc);
+  join({f2, 2}, beyond_ca);
 }
 
 void GhostMesh::dissolve(Side corner) {
-  const int f = corner.face, i = corner.corner;
-  const Index vertex = face(f).vertex[static_cast<std::size_t>(i)];
+  const int f = corner.face(), i = corner.corner();
+  const Index vertex = this->vertex(f, i);
   // f = (vertex, a, b), f1 = (vertex, b, c), f2 = (vertex, c, a)
   const int f1 = across(f, next(i)), f2 = across(f, before(i));
   const int i1 = corner_of(f1, vertex), i2 = corner_of(f2, vertex);
+  assert(across(f1, next(i1)) == f2);
   const Index a = this->vertex(f, next(i)), b = this->vertex(f, before(i));
   const Index c = this->vertex(f1, before(i1));
-  assert(across(f1, next(i1)) == f2);
-  const int beyond_ab = across(f, i), beyond_bc = across(f1, i1), beyond_ca = across(f2, i2);
-  at(f) = {{a, b, c}, {beyond_bc, beyond_ca, beyond_ab}};
-  redirect(beyond_bc, f1, f);
-  redirect(beyond_ca, f2, f);
+  const Side beyond_ab = twin(corner), beyond_bc = twin({f1, i1}), beyond_ca = twin({f2, i2});
+  at(f).vertex = {a, b, c};
+  join({f, 0}, beyond_bc);
+  join({f, 1}, beyond_ca);
+  join({f, 2}, beyond_ab);
   erase_face(std::max(f1, f2));
   erase_face(std::min(f1, f2));
 }
@@ -125,8 +111,8 @@ void GhostMesh::dissolve(Side corner) {
 void GhostMesh::erase_face(int f) {
   const int last = face_count() - 1;
   if (f != last) {
-    for (const int neighbour : face(last).across) redirect(neighbour, last, f);
-    at(f) = face(last);
+    at(f).vertex = face(last).vertex;
+    for (int i = 0; i < 3; ++i) join({f, i}, twin({last, i}));
   }
   faces_.pop_back();
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -16,14 +17,18 @@ class GhostMesh {
  public:
   static constexpr Index ghost = -1;
 
+  /// An edge as one of its faces sees it: the one opposite vertex[corner]. Four bytes.
+  struct Side {
+    std::uint32_t code;  // 4 * face + corner
+
+    Side() = default;
+    Side(int face, int corner) : code(static_cast<std::uint32_t>(4 * face + corner)) {}
+    int face() const { return static_cast<int>(code >> 2); }
+    int corner() const { return static_cast<int>(code & 3); }
+  };
   struct Face {
     std::array<Index, 3> vertex;  ///< counter-clockwise
-    std::array<int, 3> across;    ///< the face on the other side of the edge opposite each vertex
-  };
-  /// An edge as one of its faces sees it: the one opposite vertex[corner].
-  struct Side {
-    int face;
-    int corner;
+    std::array<Side, 3> twin;     ///< the edge opposite each vertex as the face behind it sees it
   };
   /// The corners of a side's two faces: the edge is a-b, the faces are (c, a, b) and (d, b, a).
   struct Quadrilateral {
@@ -42,14 +47,24 @@ class GhostMesh {
   int face_count() const { return static_cast<int>(faces_.size()); }
   const Face& face(int f) const { return faces_[static_cast<std::size_t>(f)]; }
   Index vertex(int f, int corner) const { return face(f).vertex[static_cast<std::size_t>(corner)]; }
-  int across(int f, int corner) const { return face(f).across[static_cast<std::size_t>(corner)]; }
+  Side twin(Side side) const {
+    return face(side.face()).twin[static_cast<std::size_t>(side.corner())];
+  }
+  /// The face behind the edge opposite a corner.
+  int across(int f, int corner) const { return twin({f, corner}).face(); }
+  /// The corner at which a vertex sits, or -1.
+  int corner_of(int f, Index vertex) const {
+    const auto& v = face(f).vertex;
+    return v[0] == vertex ? 0 : v[1] == vertex ? 1 : v[2] == vertex ? 2 : -1;
+  }
   /// The corner at which the ghost sits, or -1 in a real face.
   int ghost_corner(int f) const { return corner_of(f, ghost); }
-  /// The corner at which a vertex sits, or -1.
-  int corner_of(int f, Index vertex) const;
-  /// The corner of f opposite the edge shared with its neighbour g.
-  int corner_towards(int f, int g) const;
-  Quadrilateral around(Side side) const;
+  Quadrilateral around(Side side) const {
+    const int f = side.face(), i = side.corner();
+    const Side behind = twin(side);
+    return {vertex(f, next(i)), vertex(f, before(i)), vertex(f, i),
+            vertex(behind.face(), behind.corner())};
+  }
 
   /// Replaces the edge a-b of faces f (the side's) and g by c-d: f = (c, a, d), g = (c, d, b).
   /// False and nothing done if c and d are neighbours already.
@@ -69,7 +84,10 @@ class GhostMesh {
  private:
   Face& at(int f) { return faces_[static_cast<std::size_t>(f)]; }
   bool are_neighbours(Side corner, Index other) const;
-  void redirect(int f, int from, int to);
+  void join(Side a, Side b) {
+    at(a.face()).twin[static_cast<std::size_t>(a.corner())] = b;
+    at(b.face()).twin[static_cast<std::size_t>(b.corner())] = a;
+  }
   void erase_face(int f);
 
   std::vector<Face> faces_;

@@ -83,7 +83,8 @@ bool TriangulationRepair::remove(Index vertex) {
 /// Flips one edge between a vertex and its ring: where an ear can be cut off the ring, or else, on
 /// the hull, where the vertex gives up its first face there.
 bool TriangulationRepair::shorten_ring(Index vertex, int start) {
-  Side hull_side = {-1, -1};
+  Side hull_side;
+  bool on_hull = false;
   int f = start;
   do {
     // f = (vertex, p, u), its successor around the vertex (vertex, u, q).
@@ -95,10 +96,11 @@ bool TriangulationRepair::shorten_ring(Index vertex, int start) {
         return true;
     } else if (u != ghost && p == ghost) {
       hull_side = edge;
+      on_hull = true;
     }
     f = mesh_.across(f, GhostMesh::next(corner));
   } while (f != start);
-  return hull_side.face >= 0 && flip(hull_side);
+  return on_hull && flip(hull_side);
 }
 
 }  // namespace metamorph::core

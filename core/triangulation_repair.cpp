@@ -131,7 +131,7 @@ bool TriangulationRepair::settle_doubtful() {
     const Side side = doubtful_.back();
     doubtful_.pop_back();
     if (!is_illegal(side)) continue;
-    const int f = side.face, g = mesh_.across(side.face, side.corner);
+    const int f = side.face(), g = mesh_.twin(side).face();
     if (--flips_left < 0 || !flip(side)) return false;
     for (const Side edge : {Side{f, 0}, Side{f, 2}, Side{g, 0}, Side{g, 1}}) {
       doubtful_.push_back(edge);
