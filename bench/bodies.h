@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "core/body.h"
+#include "core/development.h"
+#include "core/scene.h"
+#include "evolve/genetics/genome.h"
+
+namespace metamorph::bench {
+
+/// A disc cut from the hexagonal lattice: the `cells` points nearest to the origin, a wave of phase
+/// running over it, all periods 40. Nothing of it touches itself.
+core::Body lattice_disc(int cells);
+
+/// Evolved genomes of a novelty search, shipped in bench/genomes/.
+std::vector<evolve::Genome> evolved_genomes();
+
+/// Bodies of the evolved genomes at a step of development; those that have none are left out.
+std::vector<core::Body> grown_bodies(int stage);
+
+/// A scene for timing steps: no settling, no self-collision, the model's 3000 steps.
+core::Scene plain(core::Scene scene);
+
+/// Floating-point operations of one step of a body in water as the library's kernel does them (a
+/// fused multiply-add counts two, a root or a division one), idle lanes not counted: 54 per slot of
+/// a ring, 34 per edge seen from a node, 33 per node.
+double water_step_flop(const core::Body& body);
+
+}  // namespace metamorph::bench

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <string>
+
+namespace metamorph::bench {
+
+/// Says what one iteration of a benchmark did: `units` of `unit` (spring-step, network-cell, ...).
+/// bench/report.py divides each repetition's time by it; the console shows the same as per_unit.
+inline void report(benchmark::State& state, double units, const std::string& unit) {
+  using benchmark::Counter;
+  state.SetLabel(unit);
+  state.counters["units"] = units;
+  state.counters["per_unit"] =
+      Counter(units, Counter::kIsIterationInvariantRate | Counter::kInvert);
+}
+
+/// Arithmetic of one iteration, for GFLOP/s.
+inline void report_flop(benchmark::State& state, double flop) {
+  using benchmark::Counter;
+  state.counters["flop"] = flop;
+  state.counters["flop_per_s"] = Counter(flop, Counter::kIsIterationInvariantRate);
+}
+
+}  // namespace metamorph::bench
