@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/body.h"
+#include "core/outcome.h"
+#include "core/scene.h"
+
+namespace metamorph::bench {
+
+/// One whole evaluation by one method: settling, run, distance.
+struct Measured {
+  core::Outcome outcome;
+  std::vector<double> x0, y0;  ///< [nodes] positions at the start of actuation, d
+  std::vector<double> x, y;    ///< [nodes] at the end, d; empty after a failure
+  double evaluations = 0;      ///< of all forces
+  double seconds = 0;          ///< of processor time of one thread
+};
+
+/// Every method behind one signature: body and scene in, with the scene's step.
+struct Method {
+  std::string name;
+  std::function<Measured(const core::Body&, const core::Scene&)> run;
+};
+
+/// float32 and float64 kernels (drift-kick-drift, symplectic Euler), the plain methods of the
+/// reference, and what is here for comparison only: linearly implicit Euler and XPBD.
+const std::vector<Method>& all_methods();
+
+/// One of them by name; std::out_of_range if there is none.
+const Method& method(const std::string& name);
+
+/// Processor time of the calling thread, seconds.
+double thread_seconds();
+
+/// Root of the mean squared distance between two sets of points.
+double rms_distance(const std::vector<double>& x1, const std::vector<double>& y1,
+                    const std::vector<double>& x2, const std::vector<double>& y2);
+
+}  // namespace metamorph::bench

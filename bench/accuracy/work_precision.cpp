@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "bench/accuracy/methods.h"
+#include "bench/accuracy/parallel.h"
+#include "bench/accuracy/studies.h"
+
+namespace metamorph::bench {
+namespace {
+
+/// A method and the steps it is tried at.
+struct Ladder {
+  std::string method;
+  std::vector<double> steps;
+};
+
+core::Scene at_step(core::Scene scene, double step) {
+  scene.step = step;
+  return scene;
+}
+
+/// The converged solution: by a method at a step, its error bar by the same at twice the step.
+struct Truth {
+  Measured fine;
+  double distance_bar = 0, node_bar = 0;
+};
+
+// In water everything is smooth: RK4. On the ground its order is one, as friction is an impulse
+// between steps, and drift-kick-drift at a much smaller step is the better reference.
+Truth converge(const core::Body& body, const core::Scene& scene) {
+  const Method& truth = method(scene.ground ? "DKD float64" : "RK4");
+  const double step = scene.ground ? scene.step / 128 : scene.step / 4;
+  Truth result{truth.run(body, at_step(scene, step)), 0, 0};
+  const Measured coarse = truth.run(body, at_step(scene, 2 * step));
+  result.distance_bar = std::fabs(result.fine.outcome.distance - coarse.outcome.distance);
+  result.node_bar = rms_distance(result.fine.x, result.fine.y, coarse.x, coarse.y);
+  return result;
+}
+
+std::vector<Ladder> ladders(const core::Scene& scene) {
+  if (!scene.ground) {
+    return {{"DKD float32", {0.3, 0.2, 0.1, 0.05, 0.025}},
+            {"DKD float64", {0.3, 0.2, 0.1, 0.05, 0.025}},
+            {"SE float32", {0.4, 0.2, 0.1, 0.05, 0.025}},
+            {"SE float64", {0.4, 0.2, 0.1, 0.05, 0.025}},
+            {"velocity Verlet", {0.4, 0.2, 0.1}},
+            {"midpoint", {0.4, 0.2}},
+            {"RK4", {0.8, 0.6, 0.4, 0.2}},
+            {"linearly implicit Euler", {0.8, 0.4}},
+            {"XPBD", {0.4, 0.2, 0.1}}};
+  }
+  return {{"DKD float32", {0.15, 0.1, 0.05, 0.025, 0.0125}},
+          {"DKD float64", {0.15, 0.1, 0.05, 0.025, 0.0125}},
+          {"SE float32", {0.2, 0.1, 0.05, 0.025, 0.0125}},
+          {"SE float64", {0.2, 0.1, 0.05, 0.025, 0.0125}},
+          {"velocity Verlet", {0.2, 0.1}},
+          {"RK4", {0.4, 0.2}},
+          {"linearly implicit Euler", {0.4}},
+          {"XPBD", {0.2, 0.1}}};
+}
+
+std::string rows_of(const Specimen& specimen, const core::Scene& scene) {
+  const Truth truth = converge(specimen.body, scene);
+  std::string rows;
+  const auto add = [&](const std::string& name, double step, const Measured& m, double distance,
+                       double nodes) {
+    rows += fmt::format("{},{},{},{},{},{},{},{:.9g},{},{:.4g},{:.4g},{:.4g}\n", scene.name,
+                        specimen.name, specimen.evolved ? 1 : 0, m.outcome.cells, name, step,
+                        core::name(m.outcome.status), m.outcome.distance, m.evaluations, m.seconds,
+                        distance, nodes);
+  };
+  add("reference", 0, truth.fine, truth.distance_bar, truth.node_bar);
+  for (const Ladder& ladder : ladders(scene)) {
+    for (const double step : ladder.steps) {
+      const Measured m = method(ladder.method).run(specimen.body, at_step(scene, step));
+      add(ladder.method, step, m, std::fabs(m.outcome.distance - truth.fine.outcome.distance),
+          rms_distance(m.x, m.y, truth.fine.x, truth.fine.y));
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+void work_precision(std::span<const Specimen> specimens, std::ostream& out) {
+  out << "scene,specimen,evolved,cells,method,step,status,distance,evaluations,seconds,"
+         "distance_error,node_error\n";
+  for (const core::Scene& scene : {core::water_scene(), core::land_scene(), core::slope_scene()}) {
+    for (const std::string& rows :
+         in_parallel(specimens.size(), [&](std::size_t i) { return rows_of(specimens[i], scene); }))
+      out << rows;
+    out.flush();
+  }
+}
+
+}  // namespace metamorph::bench
