@@ -15,6 +15,7 @@
 #include "core/development.h"
 #include "core/neighbourhood_detail.h"
 #include "kernels/cell_mechanics.h"
+#include "kernels/cell_space.h"
 
 namespace metamorph::core {
 
@@ -127,15 +128,12 @@ class Developer {
     const T x = cell.x + colony_.heading_x[at(mother)];
     const T y = cell.y + colony_.heading_y[at(mother)];
     const T space = static_cast<T>(rules_.division_space);
-    const auto in_the_way = [&](int i) {
-      const T dx = colony_.cell[at(i)].x - x, dy = colony_.cell[at(i)].y - y;
-      return dx * dx + dy * dy <= space * space;
-    };
     for (const int i : neighbours) {
-      if (in_the_way(i)) return false;
+      const T dx = colony_.cell[at(i)].x - x, dy = colony_.cell[at(i)].y - y;
+      if (dx * dx + dy * dy <= space * space) return false;
     }
-    for (int i = 0; i < colony_.count; ++i) {
-      if (in_the_way(i) && i != mother) return false;
+    if (kernels::is_space_taken(colony_.cell.data(), colony_.count, x, y, space, mother)) {
+      return false;
     }
     colony_.add({x, y, cell.vx, cell.vy}, colony_.heading_x[at(mother)],
                 colony_.heading_y[at(mother)], colony_.morphogen1[at(mother)],

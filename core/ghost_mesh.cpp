@@ -126,33 +126,34 @@ void GhostMesh::rename(std::span<const Index> name) {
 }
 
 void GhostMesh::list_edges(Index count, std::vector<std::array<Index, 2>>& edges) {
-  // Of the two directions of an edge one ascends. Edges are sorted into buckets by their first
-  // vertex and then, few as they are, within these.
-  const auto for_each_ascending = [this](const auto& visit) {
-    for (const Face& face : faces_) {
-      const auto [a, b, c] = face.vertex;
-      if (a < b && a != ghost) visit(a, b);
-      if (b < c && b != ghost) visit(b, c);
-      if (c < a && c != ghost) visit(c, a);
-    }
+  // Of an edge's two directions one ascends. Written so that nothing branches on which: the edges
+  // are collected, then sorted by their second vertices and, stably, by their first, counting.
+  unsorted_.resize(3 * faces_.size());
+  std::size_t found = 0;
+  const auto collect = [&](Index i, Index j) {
+    unsorted_[found] = {i, j};
+    found += static_cast<std::size_t>((i < j) & (i != ghost));
   };
+  for (const Face& face : faces_) {
+    const auto [a, b, c] = face.vertex;
+    collect(a, b);
+    collect(b, c);
+    collect(c, a);
+  }
+  unsorted_.resize(found);
+  edges.resize(found);
+  half_sorted_.resize(found);
+  sort_by_vertex(1, count, unsorted_, half_sorted_);
+  sort_by_vertex(0, count, half_sorted_, edges);
+}
+
+/// Counting sort by one of the two vertices; keeps the order of edges in which it is the same.
+void GhostMesh::sort_by_vertex(std::size_t which, Index count, const Edges& from, Edges& to) {
   bucket_.assign(static_cast<std::size_t>(count) + 1, 0);
-  for_each_ascending([this](Index i, Index) { ++bucket_[static_cast<std::size_t>(i) + 1]; });
+  for (const auto& edge : from) ++bucket_[static_cast<std::size_t>(edge[which]) + 1];
   for (std::size_t i = 1; i < bucket_.size(); ++i) bucket_[i] += bucket_[i - 1];
-  edges.resize(static_cast<std::size_t>(bucket_.back()));
-  for_each_ascending([&](Index i, Index j) {
-    edges[static_cast<std::size_t>(bucket_[static_cast<std::size_t>(i)]++)] = {i, j};
-  });
-  std::size_t start = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    const auto end = static_cast<std::size_t>(bucket_[i]);
-    for (std::size_t e = start + 1; e < end; ++e) {
-      const auto edge = edges[e];
-      std::size_t to = e;
-      for (; to > start && edges[to - 1][1] > edge[1]; --to) edges[to] = edges[to - 1];
-      edges[to] = edge;
-    }
-    start = end;
+  for (const auto& edge : from) {
+    to[static_cast<std::size_t>(bucket_[static_cast<std::size_t>(edge[which])]++)] = edge;
   }
 }
 

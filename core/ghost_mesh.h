@@ -90,8 +90,12 @@ class GhostMesh {
   }
   void erase_face(int f);
 
+  using Edges = std::vector<std::array<Index, 2>>;
+  void sort_by_vertex(std::size_t which, Index count, const Edges& from, Edges& to);
+
   std::vector<Face> faces_;
-  std::vector<int> bucket_;  // scratch
+  std::vector<int> bucket_;  // scratch of list_edges
+  Edges unsorted_, half_sorted_;
 };
 
 }  // namespace metamorph::core

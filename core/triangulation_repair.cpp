@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "core/delaunay.h"
+#include "kernels/in_circle.h"
 
 namespace metamorph::core {
 namespace {
@@ -107,21 +108,50 @@ bool TriangulationRepair::is_illegal(Side side) const {
 
 /// Flips until no edge is illegal. False if that takes suspiciously long.
 bool TriangulationRepair::settle_all() {
-  // Each edge once; collected first, since which of its two faces comes first is a toss-up.
-  doubtful_.resize(3 * static_cast<std::size_t>(mesh_.face_count()));
+  doubtful_.clear();
+  collect_inner_edges();
+  const kernels::QuadrilateralView view = {corners_[0].data(), corners_[1].data(),
+                                           corners_[2].data(), corners_[3].data()};
+  const auto* points = reinterpret_cast<const double(*)[2]>(points_.data());
+  const int found = kernels::not_certainly_outside(points, view, static_cast<int>(sides_.size()),
+                                                   suspects_.data());
+  for (int s = 0; s < found; ++s) {
+    const Side side = sides_[static_cast<std::size_t>(suspects_[static_cast<std::size_t>(s)])];
+    if (is_illegal(side)) doubtful_.push_back(side);
+  }
+  for (int f = 0; f < mesh_.face_count(); ++f) {
+    const int corner = mesh_.ghost_corner(f);
+    if (corner < 0) continue;
+    const Side dent = {f, GhostMesh::next(corner)};
+    if (is_illegal(dent)) doubtful_.push_back(dent);
+  }
+  return settle_doubtful();
+}
+
+/// Fills sides_ with each edge between two real faces, once, and corners_ with their corners.
+void TriangulationRepair::collect_inner_edges() {
+  const std::size_t most = 3 * static_cast<std::size_t>(mesh_.face_count()) + 16;
+  sides_.resize(most);
+  suspects_.resize(most);
+  for (auto& corner : corners_) corner.resize(most);
   std::size_t count = 0;
   for (int f = 0; f < mesh_.face_count(); ++f) {
     for (int i = 0; i < 3; ++i) {
-      doubtful_[count] = {f, i};
-      count += f < mesh_.across(f, i);
+      // Written first and counted after: which of an edge's faces comes first is a toss-up.
+      const Side side = {f, i};
+      const auto [a, b, c, d] = mesh_.around(side);
+      sides_[count] = side;
+      corners_[0][count] = c;
+      corners_[1][count] = a;
+      corners_[2][count] = b;
+      corners_[3][count] = d;
+      count +=
+          static_cast<std::size_t>((side.code < mesh_.twin(side).code) & ((a | b | c | d) >= 0));
     }
   }
-  std::size_t illegal = 0;
-  for (std::size_t e = 0; e < count; ++e) {
-    if (is_illegal(doubtful_[e])) doubtful_[illegal++] = doubtful_[e];
-  }
-  doubtful_.resize(illegal);
-  return settle_doubtful();
+  for (auto& corner : corners_)
+    std::fill_n(corner.begin() + static_cast<std::ptrdiff_t>(count), 16, 0);
+  sides_.resize(count);
 }
 
 /// The same, where only edges in doubtful_ can be illegal.

@@ -47,6 +47,7 @@ class TriangulationRepair {
   bool insert(Index vertex);
   int face_around(Point target) const;
   bool settle_all();
+  void collect_inner_edges();
   bool settle_doubtful();
   bool is_illegal(Side side) const;
   bool hull_winds_once() const;
@@ -65,7 +66,10 @@ class TriangulationRepair {
   std::vector<Point> target_;    // where it goes
   std::vector<Index> inserted_;  // points that are out of the mesh
   GhostMesh mesh_;               // empty where points coincide or all lie on a straight line
-  std::vector<Side> doubtful_;
+  std::vector<Side> doubtful_;   // edges that may be illegal
+  std::vector<Side> sides_;      // scratch of settle_all
+  std::array<std::vector<Index>, 4> corners_;
+  std::vector<Index> suspects_;
   std::vector<Index> name_;
   std::vector<std::array<Index, 2>> edges_;
   bool changed_ = true;
