@@ -54,18 +54,15 @@ void Neighbourhood::fill_slots(int cells) {
   }
   slot_neighbour_.resize(static_cast<std::size_t>(first_slot_.back() * lanes));
   for (int i = 0; i < groups * lanes; ++i) {
-    const int g = i / lanes;
-    const int slots =
-        first_slot_[static_cast<std::size_t>(g) + 1] - first_slot_[static_cast<std::size_t>(g)];
-    std::uint32_t* slot =
-        slot_neighbour_.data() + first_slot_[static_cast<std::size_t>(g)] * lanes + i % lanes;
+    const auto g = static_cast<std::size_t>(i / lanes);
     const int linked = i < cells ? degree(i) : 0;
-    const int* const ring = linked > 0 ? of(i).data() : nullptr;
-    for (int s = 0; s < linked; ++s, slot += lanes) {
-      *slot = static_cast<std::uint32_t>(ring[s]) * record_bytes_;
+    auto at = static_cast<std::size_t>(first_slot_[g] * lanes + i % lanes);
+    for (int s = 0; s < linked; ++s, at += lanes) {
+      slot_neighbour_[at] =
+          static_cast<std::uint32_t>(of(i)[static_cast<std::size_t>(s)]) * record_bytes_;
     }
-    for (int s = linked; s < slots; ++s, slot += lanes) {
-      *slot = static_cast<std::uint32_t>(i) * record_bytes_;
+    for (int s = first_slot_[g] + linked; s < first_slot_[g + 1]; ++s, at += lanes) {
+      slot_neighbour_[at] = static_cast<std::uint32_t>(i) * record_bytes_;
     }
   }
 }

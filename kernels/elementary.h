@@ -66,7 +66,7 @@ inline T tanh_half(T x) {
 template <class T>
 inline void sin_cos_pi(T u, T& sine, T& cosine) {
   // Quarter turns: q in -2..2, the rest |v| <= 1/4 is exact.
-  const int q = static_cast<int>(T(2) * u + (u < T(0) ? T(-0.5) : T(0.5)));
+  const int q = (u >= T(0.25)) + (u >= T(0.75)) - (u <= T(-0.25)) - (u <= T(-0.75));
   const T v = u - T(0.5) * static_cast<T>(q);
   const T w = v * v;
   // pi^(2k+1)/(2k+1)! and pi^(2k)/(2k)! with alternating signs, |pi v| <= pi/4.
