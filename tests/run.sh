@@ -88,6 +88,10 @@ build_all() {
   configure "$@" && build "$1"
 }
 
+build_thread_tests() {
+  configure tsan && build tsan thread_tests
+}
+
 clang_tier() {
   part 'clang build, warnings are errors' build_all clang -DMETAMORPH_TESTS=OFF
 }
@@ -115,7 +119,7 @@ thread_tier() {
     return
   fi
   export OMP_TOOL_LIBRARIES=$archer TSAN_OPTIONS=ignore_noninstrumented_modules=1
-  part 'build with the thread sanitizer' build_all tsan &&
+  part 'build with the thread sanitizer' build_thread_tests &&
     run_ctest 'tests under the thread sanitizer' tsan --label-regex threads
   unset OMP_TOOL_LIBRARIES TSAN_OPTIONS
 }
