@@ -55,16 +55,17 @@ class Evaluation {
         scene_(scene),
         options_(options),
         h_(options.step > 0 ? options.step : scene.step),
+        settle_h_(scene.settle_step * (h_ / scene.step)),
         outcome_(describe(body)) {}
 
   Outcome run() {
     if (scene_.ground && !settle()) return outcome_;
     const std::array<double, 2> start = system_.mean_position();
     observe(0);
-    const std::int64_t steps = steps_in(scene_.run_steps);
+    const std::int64_t steps = steps_in(scene_.run_steps, h_);
     for (std::int64_t n = 0; n < steps; ++n) {
       system_.step(options_.method, static_cast<double>(n) * h_, h_);
-      if (!count(n + 1) || (n + 1 == steps && !sound())) return outcome_;
+      if (!count(n + 1, h_) || (n + 1 == steps && !sound())) return outcome_;
       if ((n + 1) % options_.observe_every == 0) observe(n + 1);
     }
     const std::array<double, 2> end = system_.mean_position();
@@ -76,19 +77,20 @@ class Evaluation {
   }
 
  private:
-  std::int64_t steps_in(int paper_steps) const {
-    return std::llround(paper_steps * paper_step / h_);
+  static std::int64_t steps_in(int paper_steps, double h) {
+    return std::llround(paper_steps * paper_step / h);
   }
 
+  /// Symplectic Euler, whatever the method of the run: its limit under damping is the widest.
   bool settle() {
-    const std::int64_t wanted = steps_in(scene_.settle_quiet_steps);
-    const std::int64_t limit = steps_in(scene_.settle_max_steps);
+    const std::int64_t wanted = steps_in(scene_.settle_quiet_steps, settle_h_);
+    const std::int64_t limit = steps_in(scene_.settle_max_steps, settle_h_);
     system_.set_settling(true);
     std::int64_t quiet = 0;
     while (quiet < wanted && outcome_.steps < limit) {
-      system_.step(options_.method, 0, h_);
-      const bool sound = count(outcome_.steps + 1);
-      outcome_.settle_time = static_cast<double>(outcome_.steps) * h_;
+      system_.step(ReferenceMethod::symplectic_euler, 0, settle_h_);
+      const bool sound = count(outcome_.steps + 1, settle_h_);
+      outcome_.settle_time = static_cast<double>(outcome_.steps) * settle_h_;
       if (!sound) return false;
       quiet = system_.max_speed() < scene_.settle_speed ? quiet + 1 : 0;
     }
@@ -97,11 +99,11 @@ class Evaluation {
     return true;
   }
 
-  /// Counts a step, the n-th of settling or of the run, and looks at the state it led to. What was
-  /// found is told every 8 steps: false if there was a fault among them.
-  bool count(std::int64_t n) {
+  /// Counts a step, the n-th of settling or of the run, of size h, and looks at the state it led
+  /// to. What was found is told every 8 steps: false if there was a fault among them.
+  bool count(std::int64_t n, double h) {
     ++outcome_.steps;
-    const ref::Health health = system_.examine(h_);
+    const ref::Health health = system_.examine(h);
     outcome_.min_area_ratio = std::min(outcome_.min_area_ratio, health.min_area_ratio);
     outcome_.max_speed = std::max(outcome_.max_speed, health.max_speed);
     if (severity(health.fault) >= severity(worst_.fault)) worst_ = health;
@@ -126,7 +128,8 @@ class Evaluation {
   ReferenceSystem system_;
   const Scene& scene_;
   const ReferenceOptions& options_;
-  double h_;
+  double h_;         ///< of the run
+  double settle_h_;  ///< of settling
   Outcome outcome_;
   ref::Health worst_;  // of the steps so far
 };

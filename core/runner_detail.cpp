@@ -79,6 +79,7 @@ void Runner<T>::run(std::size_t i, const LocomotionTask& task, Outcome& outcome,
   index_ = i;
   view_ = batch_.view(i);
   coefficients_ = coefficients<T>(*scene_, method_);
+  step_ = scene_->step;
   extremes_ = {};
   touched_ = false;
   if (scene_->self_collision) {
@@ -92,7 +93,7 @@ template <class T>
 void Runner<T>::step(std::uint64_t n) {
   kernels::Terms terms;
   terms.pressure = scene_->pressure > 0;
-  terms.drag = scene_->drag && !settling_;
+  terms.drag = scene_->drag;
   terms.ground = scene_->ground;
   terms.actuation = !settling_;
   terms.settling = settling_;
@@ -115,14 +116,11 @@ void Runner<T>::step(std::uint64_t n) {
 template <class T>
 bool Runner<T>::settle(const LocomotionTask& task, Outcome& outcome) {
   const Scene& scene = *task.scene;
-  settling_ = true;
-  coefficients_.damping = static_cast<T>(scene.settle_damping);
-  coefficients_.amplitude = T(0);
-  const std::int64_t quiet_needed = steps_of(scene.settle_quiet_steps, scene.step);
-  const std::int64_t most = steps_of(scene.settle_max_steps, scene.step);
+  begin_settling();
+  const std::int64_t quiet_needed = steps_of(scene.settle_quiet_steps, step_);
+  const std::int64_t most = steps_of(scene.settle_max_steps, step_);
   const double quiet2 = scene.settle_speed * scene.settle_speed;
   std::int64_t quiet = 0, n = 0;
-  bool failed = false;
   while (n < most && quiet < quiet_needed) {
     const auto before = extremes_.largest_speed2;
     extremes_.largest_speed2 = kernels::Lanes<T>(T(0));
@@ -130,21 +128,38 @@ bool Runner<T>::settle(const LocomotionTask& task, Outcome& outcome) {
     quiet = static_cast<double>(largest(extremes_.largest_speed2)) < quiet2 ? quiet + 1 : 0;
     extremes_.largest_speed2 = kernels::max(extremes_.largest_speed2, before);
     ++n;
-    if (n % check_interval == 0) {
-      outcome.steps = n;
-      if (!sound(outcome)) {
-        failed = true;
-        break;
-      }
-    }
+    outcome.steps = n;
+    outcome.settle_time = static_cast<double>(n) * step_;
+    if (n % check_interval == 0 && !sound(outcome)) return false;
   }
-  outcome.steps = n;
-  outcome.settle_time = static_cast<double>(n) * scene.step;
-  settling_ = false;
-  coefficients_.damping = static_cast<T>(scene.damping);
-  if (failed) return false;
+  end_settling();
   if (quiet < quiet_needed) outcome.status = Status::not_settled;
   return true;
+}
+
+/// Settling is symplectic Euler: records hold (x_n, v_n), nothing is extrapolated.
+template <class T>
+void Runner<T>::begin_settling() {
+  settling_ = true;
+  step_ = scene_->settle_step;
+  coefficients_.step = static_cast<T>(step_);
+  coefficients_.extrapolate = T(0);
+  coefficients_.damping = static_cast<T>(scene_->settle_damping);
+  coefficients_.amplitude = T(0);
+}
+
+/// Back to the method of the run, whose records lie half a step ahead. No acceleration is taken
+/// over: the body is at rest.
+template <class T>
+void Runner<T>::end_settling() {
+  settling_ = false;
+  step_ = scene_->step;
+  coefficients_ = coefficients<T>(*scene_, method_);
+  for (int l = 0; l < view_.nodes; ++l) {
+    kernels::NodeRecord<T>& record = view_.now[l];
+    record.x = std::fma(coefficients_.extrapolate, view_.vx[l], record.x);
+    record.y = std::fma(coefficients_.extrapolate, view_.vy[l], record.y);
+  }
 }
 
 template <class T>
@@ -191,7 +206,7 @@ bool Runner<T>::sound(Outcome& outcome) {
   } else if (outcome.min_area_ratio < collapse_ratio) {
     outcome.status = Status::collapsed;
     outcome.failed_value = outcome.min_area_ratio;
-  } else if (speed > speed_limit || speed * scene_->step > travel_limit) {
+  } else if (speed > speed_limit || speed * step_ > travel_limit) {
     outcome.status = Status::speed;
     outcome.failed_value = speed;
   } else {

@@ -29,6 +29,8 @@ class Runner {
   bool settle(const LocomotionTask& task, Outcome& outcome);
   bool actuate(const LocomotionTask& task, Outcome& outcome, int every,
                const std::function<void(const Frame&)>& observe);
+  void begin_settling();
+  void end_settling();
   void step(std::uint64_t n);
   bool sound(Outcome& outcome);
   void locate_failure(Outcome& outcome) const;
@@ -48,6 +50,7 @@ class Runner {
   kernels::StepCoefficients<T> coefficients_{};
   kernels::StepExtremes<T> extremes_{};
   bool settling_ = false;
+  double step_ = 0;       ///< time units, of the phase it is in
   bool touched_ = false;  ///< the extra forces hold something
   CollisionList<T> collisions_;
   std::vector<double> frame_[4];

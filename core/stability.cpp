@@ -138,12 +138,13 @@ StepLimit step_limit(const Body& body, const Scene& scene, double damping, Metho
 
 bool step_is_stable(const Body& body, const Scene& scene, Method method) {
   const Linearised linear(body, scene);
-  const double h = scene.step;
-  const auto stable = [&](double damping) {
-    const double springs = h * h * linear.k + damping_weight(method) * h * damping;
+  const auto stable = [&](double h, double damping, Method phase_method) {
+    const double springs = h * h * linear.k + damping_weight(phase_method) * h * damping;
     return linear.row_sum(springs, h * h) <= 4 || linear.largest_eigenvalue(springs, h * h) <= 4;
   };
-  return stable(scene.damping) && (!scene.ground || stable(scene.settle_damping));
+  return stable(scene.step, scene.damping, method) &&
+         (!scene.ground ||
+          stable(scene.settle_step, scene.settle_damping, Method::symplectic_euler));
 }
 
 }  // namespace metamorph::core

@@ -20,8 +20,8 @@ struct StepLimit {
 /// `damping` is the spring damping in force: the scene's, or settle_damping while settling.
 StepLimit step_limit(const Body& body, const Scene& scene, double damping, Method method);
 
-/// True if the scene's step is within the limit for this body, settling included. Cheap: the sharp
-/// limit is computed only where the safe one does not already decide.
+/// True if the scene's steps, of the run and of settling, are within the limit for this body.
+/// Cheap: the sharp limit is computed only where the safe one does not already decide.
 bool step_is_stable(const Body& body, const Scene& scene, Method method);
 
 }  // namespace metamorph::core

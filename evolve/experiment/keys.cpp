@@ -171,6 +171,7 @@ Section scene_section(NamedScene& named) {
            {"ramp_steps", &s.ramp_steps, 0, no_limit, "steps over which actuation starts"},
            {"distance", choice(s.distance, {"euclidean", "horizontal", "rightward"}), 0, 0,
             "what counts as distance"},
+           {"settle_step", &s.settle_step, 1e-6, 10, "time units per step while settling"},
            {"settle_damping", &s.settle_damping, 0, 1e6, "c while settling"},
            {"settle_drag", &s.settle_drag, 0, 1e6, "drag per node while settling"},
            {"settle_speed", &s.settle_speed, 0, 1e6, "quiet below this, d per time unit"},

@@ -119,6 +119,7 @@ core::Scene rescaled(core::Scene scene, int length, int time) {
   scene.collision_gap *= d;
   scene.min_pressure_area *= d * d;
   scene.step *= t;
+  scene.settle_step *= t;
   for (int* steps :
        {&scene.run_steps, &scene.ramp_steps, &scene.settle_quiet_steps, &scene.settle_max_steps})
     *steps = static_cast<int>(*steps * t);
