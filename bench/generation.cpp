@@ -1,0 +1,176 @@
+// Whole generations: 300 metamorphic individuals of evolved size, from genomes to the next genomes;
+// reproduction and novelty on their own; memory.
+
+#include <omp.h>
+
+#include <fstream>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "bench/bodies.h"
+#include "bench/measure.h"
+#include "core/random.h"
+#include "evolve/experiment/experiment_file.h"
+#include "evolve/run/evaluate.h"
+#include "evolve/search/novelty.h"
+#include "evolve/search/search.h"
+
+namespace metamorph::bench {
+namespace {
+
+constexpr int population = 300;
+
+/// A metamorphic experiment. Adults grow to 200 cells at most, so that bodies have the sizes that
+/// evolved ones have on average: larvae about 90 cells, adults about 200.
+evolve::Experiment experiment(const std::string& larva, const std::string& adult) {
+  return evolve::parse_experiment(
+      "name = 'bench'\n[search]\nkind = 'novelty'\n[development]\nmax_cells = 200\n"
+      "[[trials]]\nname = 'larva'\nstage = 600\nscene = '" +
+          larva + "'\n[[trials]]\nname = 'adult'\nstage = 1200\nscene = '" + adult + "'\n",
+      "bench");
+}
+
+/// The evolved genomes, again and again.
+evolve::PopulationState evolved_population(const evolve::NeatSettings& settings) {
+  const auto evolved = evolved_genomes();
+  evolve::PopulationState state = evolve::first_generation(settings, 1);
+  for (std::size_t i = 0; i < state.genomes.size(); ++i) {
+    state.genomes[i] = evolved[i % evolved.size()];
+  }
+  return state;
+}
+
+/// Largest resident size since the last call of forget_peak(), bytes; 0 where the system does not
+/// say.
+double peak_memory() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  double kilobytes = 0;
+  while (status >> word) {
+    if (word == "VmHWM:") status >> kilobytes;
+  }
+  return kilobytes * 1024;
+}
+
+void forget_peak() { std::ofstream("/proc/self/clear_refs") << 5; }
+
+void generation(benchmark::State& state, const std::string& larva, const std::string& adult,
+                int threads) {
+  const evolve::Experiment setting = experiment(larva, adult);
+  const evolve::PopulationState start = evolved_population(setting.neat);
+  const std::vector<std::uint8_t> every_trial(setting.trials.size(), 1);
+  std::vector<std::int64_t> ids(population);
+  std::iota(ids.begin(), ids.end(), 0);
+  evolve::EvaluationSeconds seconds;
+  std::vector<evolve::Evaluated> individuals;
+  forget_peak();
+  for (auto _ : state) {
+    evolve::Evaluator evaluator(setting, threads);
+    individuals = evaluator.evaluate(start.genomes, every_trial, seconds);
+    std::vector<evolve::Evaluation> evaluations;
+    for (const auto& individual : individuals) evaluations.push_back(individual.evaluation);
+    evolve::SearchState search = evolve::initial_state(setting.search);
+    const auto scores = evolve::score_generation(setting.search, search, evaluations, ids, 1,
+                                                 setting.generations, threads);
+    evolve::PopulationState next = start;
+    evolve::next_generation(next, setting.neat, scores, false, threads);
+    benchmark::DoNotOptimize(next);
+  }
+  report(state, 1, "generation");
+  state.counters["peak_MB"] = peak_memory() / 1e6;
+  const auto runs = static_cast<double>(state.iterations());
+  state.counters["develop_s"] = seconds.develop / runs;
+  state.counters["extract_s"] = seconds.extract / runs;
+  state.counters["locomotion_s"] = seconds.locomotion / runs;
+  for (std::size_t t = 0; t < setting.trials.size(); ++t) {
+    double cells = 0, steps = 0;
+    for (const auto& individual : individuals) {
+      cells += individual.evaluation.trials[t].cells;
+      steps += static_cast<double>(individual.evaluation.trials[t].steps);
+    }
+    state.counters[setting.trials[t].name + "_cells"] = cells / population;
+    state.counters[setting.trials[t].name + "_steps"] = steps / population;
+  }
+}
+
+/// A population that has lived for some generations under random fitness: diverse, in species.
+evolve::PopulationState lived_population(const evolve::NeatSettings& settings,
+                                         std::vector<double>& fitness) {
+  evolve::PopulationState state = evolve::first_generation(settings, 1);
+  core::RandomStream random(core::Purpose::test, 1, 0, 0);
+  fitness.resize(population);
+  for (int generation = 0; generation < 50; ++generation) {
+    for (double& value : fitness) value = random.uniform();
+    evolve::next_generation(state, settings, fitness, false, 1);
+  }
+  return state;
+}
+
+void reproduction(benchmark::State& state) {
+  const evolve::NeatSettings settings;
+  std::vector<double> fitness;
+  const evolve::PopulationState start = lived_population(settings, fitness);
+  for (auto _ : state) {
+    state.PauseTiming();
+    evolve::PopulationState next = start;
+    state.ResumeTiming();
+    evolve::next_generation(next, settings, fitness, false, 1);
+    benchmark::DoNotOptimize(next);
+  }
+  report(state, 1, "generation");
+  double links = 0;
+  for (const auto& genome : start.genomes) links += static_cast<double>(genome.links.size());
+  state.counters["links"] = links / population;
+  state.counters["species"] = static_cast<double>(start.species.size());
+}
+
+void novelty(benchmark::State& state) {
+  const evolve::SearchSettings settings;
+  core::RandomStream random(core::Purpose::test, 2, 0, 0);
+  const auto behaviour = [&] {
+    std::vector<double> place(4);
+    for (double& value : place) value = 50 * random.triangular();
+    return place;
+  };
+  std::vector<std::vector<double>> behaviours(population);
+  for (auto& place : behaviours) place = behaviour();
+  std::vector<evolve::ArchiveEntry> archive(static_cast<std::size_t>(state.range(0)));
+  for (auto& entry : archive) entry.behaviour = behaviour();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(evolve::novelty(behaviours, archive, settings.neighbours, 1, 1));
+  }
+  report(state, 1, "generation");
+}
+
+void add_generations() {
+  std::vector<int> threads = {1};
+  if (omp_get_max_threads() > 1) threads.push_back(2);
+  if (omp_get_max_threads() > 2) threads.push_back(omp_get_max_threads());
+  for (const int count : threads) {
+    for (const auto& [larva, adult] : {std::pair("water", "land"), std::pair("land", "water")}) {
+      const std::string name =
+          std::string("generation/") + larva + "-to-" + adult + "/threads:" + std::to_string(count);
+      benchmark::RegisterBenchmark(name.c_str(),
+                                   [larva = larva, adult = adult, count](benchmark::State& state) {
+                                     generation(state, larva, adult, count);
+                                   })
+          ->Unit(benchmark::kMillisecond)
+          ->MeasureProcessCPUTime()
+          ->UseRealTime();
+    }
+  }
+}
+
+BENCHMARK(reproduction)->Unit(benchmark::kMillisecond);
+BENCHMARK(novelty)->Arg(5000)->Arg(100000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace metamorph::bench
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  metamorph::bench::add_generations();
+  benchmark::RunSpecifiedBenchmarks();
+}

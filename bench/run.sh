@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, runs every benchmark and draws the charts (about six minutes):
+#   bash bench/run.sh           writes bench/results/<processor>.csv, <processor>-bars.csv, bench/charts/
+#   bash bench/run.sh --quick   fewer and shorter repetitions; writes under build/release/bench/ only
+# Leave the machine alone meanwhile: times are the least of all repetitions, but threads cannot be
+# timed beside other work.
+. "$(dirname "${BASH_SOURCE[0]}")/../evolve/setup.sh"
+
+needs_of_bench='
+libbenchmark-dev     header:benchmark/benchmark.h
+python3              program:python3
+python3-matplotlib   program:python3'
+folder=build/release/bench
+results=bench/results charts=bench/charts
+options=(--benchmark_repetitions=5 --benchmark_min_time=0.1)
+case "${1:-}" in
+  '') ;;
+  --quick)
+    results=$folder/results charts=$folder/charts
+    # Batches of 10,000 and all that lasts longest are left out.
+    options=(--benchmark_repetitions=2 --benchmark_min_time=0.02
+      '--benchmark_filter=-batch/.*/10000|land-to-water|generation/.*/threads:1')
+    ;;
+  *) fail "usage: bash bench/run.sh [--quick]" ;;
+esac
+
+need "$needs_of_program$needs_of_bench" || fail 'Cannot measure without these.'
+programs=(step alternatives development generation scaling)
+tests=()
+[ -f build/release/CMakeCache.txt ] || tests=(-DMETAMORPH_TESTS=OFF)
+configure release -DMETAMORPH_BENCH=ON "${tests[@]}" && build release "${programs[@]/#/bench_}" ||
+  fail 'The build failed.'
+
+raw=$folder/raw
+rm -rf "$raw"
+mkdir -p "$raw"
+for program in "${programs[@]}"; do
+  start=$SECONDS
+  # Repetitions of all benchmarks of a program in random order: what is compared is timed side by
+  # side.
+  "$folder/bench_$program" "${options[@]}" --benchmark_enable_random_interleaving=true \
+    --benchmark_out="$raw/bench_$program.json" --benchmark_out_format=json \
+    >"$raw/bench_$program.txt" 2>&1 || { tail -n 5 "$raw/bench_$program.txt"; exit 1; }
+  say "bench_$program took $(took $((SECONDS - start)))"
+done
+# Debian's packages belong to its own Python, which need not be the first.
+python=python3
+"$python" -c 'import matplotlib' 2>/dev/null || python=/usr/bin/python3
+"$python" bench/report.py "$raw" "$results" && "$python" bench/plot_speed.py "$results" "$charts"
