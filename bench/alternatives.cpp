@@ -18,9 +18,10 @@ namespace {
 using core::Body;
 using core::Scene;
 
-void report_steps(benchmark::State& state, const Body& body, const Scene& scene, double animats) {
+void report_steps(benchmark::State& state, const HardwareCounters& counters, const Body& body,
+                  const Scene& scene, double animats) {
   const double steps = scene.run_steps * animats;
-  report(state, steps * static_cast<double>(body.springs.size()), "spring-step");
+  report(state, counters, steps * static_cast<double>(body.springs.size()), "spring-step");
   report_flop(state, steps * water_step_flop(body));
 }
 
@@ -30,6 +31,7 @@ void opponent(benchmark::State& state, const Body& body, bool same_physics) {
   const Scene scene = plain(core::water_scene());
   const double ramp = scene.ramp_steps * core::paper_step;
   double travel = 0, animats = 0;
+  const HardwareCounters counters;
   for (auto _ : state) {
     Opponent simulation(body, scene);
     const double start = simulation.mean_x();
@@ -40,7 +42,7 @@ void opponent(benchmark::State& state, const Body& body, bool same_physics) {
     travel = simulation.mean_x() - start;
     animats = simulation.animats();
   }
-  report_steps(state, body, scene, animats);
+  report_steps(state, counters, body, scene, animats);
   if (!same_physics) return;
   const double expected = core::simulate_reference(body, scene).mean_position[0];
   if (!(std::fabs(travel - expected) < 0.01)) {
@@ -56,14 +58,16 @@ void library(benchmark::State& state, const Body& body, core::Precision precisio
   core::LocomotionOptions options;
   options.precision = precision;
   options.threads = 1;
+  const HardwareCounters counters;
   for (auto _ : state) benchmark::DoNotOptimize(core::simulate({&task, 1}, options));
-  report_steps(state, body, scene, 1);
+  report_steps(state, counters, body, scene, 1);
 }
 
 void reference(benchmark::State& state, const Body& body) {
   const Scene scene = plain(core::water_scene());
+  const HardwareCounters counters;
   for (auto _ : state) benchmark::DoNotOptimize(core::simulate_reference(body, scene));
-  report_steps(state, body, scene, 1);
+  report_steps(state, counters, body, scene, 1);
 }
 
 template <class F>
@@ -79,6 +83,12 @@ void add_opponents(const Body& body, const std::string& suffix, core::Precision 
       [body](benchmark::State& state) { opponent<RingOpponent<T, Records>>(state, body, true); });
   add("floor/" + suffix, [body](benchmark::State& state) {
     opponent<RingOpponent<T, Contiguous>>(state, body, false);
+  });
+  add("floor-without-roots/" + suffix, [body](benchmark::State& state) {
+    opponent<RingOpponent<T, Contiguous, Parts::without_roots>>(state, body, false);
+  });
+  add("floor-without-oscillation/" + suffix, [body](benchmark::State& state) {
+    opponent<RingOpponent<T, Contiguous, Parts::without_oscillation>>(state, body, false);
   });
   add("lane-is-node-hardware-gathers/" + suffix, [body](benchmark::State& state) {
     opponent<RingOpponent<T, HardwareGather>>(state, body, true);

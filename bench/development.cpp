@@ -40,8 +40,9 @@ std::vector<core::Network> evolved_networks() {
 void develop(benchmark::State& state, const std::vector<int>& stages) {
   const auto networks = evolved_networks();
   std::vector<std::vector<Embryo>> embryos;
+  const HardwareCounters counters;
   for (auto _ : state) embryos = core::develop(networks, core::DevelopmentRules{}, stages, 1);
-  report(state, static_cast<double>(networks.size()), "development");
+  report(state, counters, static_cast<double>(networks.size()), "development");
   state.counters["cells"] = mean_cells(embryos);
 }
 
@@ -85,6 +86,7 @@ double count(const std::vector<std::vector<Renewal>>& courses) {
 void repair(benchmark::State& state) {
   const auto courses = renewals();
   core::TriangulationRepair triangulation;
+  const HardwareCounters counters;
   for (auto _ : state) {
     for (const auto& course : courses) {
       triangulation.clear();
@@ -93,7 +95,7 @@ void repair(benchmark::State& state) {
       }
     }
   }
-  report(state, count(courses), "renewal");
+  report(state, counters, count(courses), "renewal");
   state.counters["anew"] = static_cast<double>(triangulation.rebuilds()) /
                            static_cast<double>(state.iterations()) / count(courses);
 }
@@ -102,6 +104,7 @@ void repair(benchmark::State& state) {
 void triangulate(benchmark::State& state) {
   const auto courses = renewals();
   core::Triangulation triangulation;
+  const HardwareCounters counters;
   for (auto _ : state) {
     for (const auto& course : courses) {
       for (const Renewal& renewal : course) {
@@ -109,7 +112,7 @@ void triangulate(benchmark::State& state) {
       }
     }
   }
-  report(state, count(courses), "renewal");
+  report(state, counters, count(courses), "renewal");
 }
 
 /// Everything that development does to renew its neighbours; the links must be those of a full
@@ -118,6 +121,7 @@ void renew(benchmark::State& state) {
   const auto courses = renewals();
   const double limit = core::DevelopmentRules{}.link_limit;
   core::Neighbourhood neighbourhood(sizeof(kernels::NodeRecord<float>));
+  const HardwareCounters counters;
   for (auto _ : state) {
     for (const auto& course : courses) {
       neighbourhood.clear();
@@ -126,7 +130,7 @@ void renew(benchmark::State& state) {
       }
     }
   }
-  report(state, count(courses), "renewal");
+  report(state, counters, count(courses), "renewal");
 
   core::Triangulation triangulation;
   core::LinkSelection selection;
@@ -149,6 +153,7 @@ void renew_anew(benchmark::State& state) {
   core::Triangulation triangulation;
   core::LinkSelection selection;
   std::vector<std::array<Index, 2>> links;
+  const HardwareCounters counters;
   for (auto _ : state) {
     for (const auto& course : courses) {
       for (const Renewal& renewal : course) {
@@ -157,7 +162,7 @@ void renew_anew(benchmark::State& state) {
       }
     }
   }
-  report(state, count(courses), "renewal");
+  report(state, counters, count(courses), "renewal");
 }
 
 template <class T>
@@ -172,6 +177,7 @@ void infer(benchmark::State& state) {
                         T(0.3));
     links += static_cast<double>(network.source.size());
   }
+  const HardwareCounters counters;
   for (auto _ : state) {
     for (std::size_t i = 0; i < networks.size(); ++i) {
       const core::Network& network = networks[i];
@@ -182,7 +188,7 @@ void infer(benchmark::State& state) {
     }
     benchmark::ClobberMemory();
   }
-  report(state, static_cast<double>(networks.size()) * cells, "network-cell");
+  report(state, counters, static_cast<double>(networks.size()) * cells, "network-cell");
   report_flop(state, 2 * links * cells);
   state.counters["links"] = links / static_cast<double>(networks.size());
 }
@@ -206,6 +212,7 @@ void mechanics(benchmark::State& state) {
       static_cast<T>(rules.step), static_cast<T>(rules.stiffness), static_cast<T>(rules.damping),
       static_cast<T>(rules.drag)};
   constexpr int steps = 100;
+  const HardwareCounters counters;
   for (auto _ : state) {
     for (int n = 0; n < steps; ++n) {
       kernels::step_cells(coefficients, neighbourhood.rings(), cells.data(), next.data());
@@ -213,19 +220,20 @@ void mechanics(benchmark::State& state) {
     }
     benchmark::ClobberMemory();
   }
-  report(state, steps * static_cast<double>(neighbourhood.links().size()), "link-step");
+  report(state, counters, steps * static_cast<double>(neighbourhood.links().size()), "link-step");
   state.counters["cells"] = embryo.cell_count();
 }
 
 void extract(benchmark::State& state, int stage) {
   const int stages[] = {stage};
   const auto embryos = core::develop(evolved_networks(), core::DevelopmentRules{}, stages, 1);
+  const HardwareCounters counters;
   for (auto _ : state) {
     for (const auto& embryo : embryos) {
       benchmark::DoNotOptimize(core::extract_body(embryo.front()));
     }
   }
-  report(state, static_cast<double>(embryos.size()), "body");
+  report(state, counters, static_cast<double>(embryos.size()), "body");
   state.counters["cells"] = mean_cells(embryos);
 }
 

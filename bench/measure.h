@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "bench/hardware_counters.h"
+
 namespace metamorph::bench {
 
 /// Says what one iteration of a benchmark did: `units` of `unit` (spring-step, network-cell, ...).
@@ -14,6 +16,13 @@ inline void report(benchmark::State& state, double units, const std::string& uni
   state.counters["units"] = units;
   state.counters["per_unit"] =
       Counter(units, Counter::kIsIterationInvariantRate | Counter::kInvert);
+}
+
+/// The same, with the instructions and cycles of one unit.
+inline void report(benchmark::State& state, const HardwareCounters& counters, double units,
+                   const std::string& unit) {
+  counters.report(state, units);  // first: the reporting itself is not to be counted
+  report(state, units, unit);
 }
 
 /// Arithmetic of one iteration, for GFLOP/s.

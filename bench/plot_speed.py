@@ -50,7 +50,7 @@ def bars(axes, labels, values, colours, unit, digits=2):
     places = range(len(labels))
     axes.barh(places, values, color=colours, height=0.7)
     axes.set_yticks(places, labels)
-    axes.invert_yaxis()
+    axes.set_ylim(len(labels) - 0.4, -0.6)
     axes.set_xlabel(unit)
     axes.set_xlim(0, max(values) * 1.15)
     for place, value in zip(places, values):
@@ -109,8 +109,9 @@ def scenes(results):
          "ns per spring and step")
     right.barh(range(len(cases)), without, color=BLUE, height=0.7, label="step")
     right.barh([0], [0], color=RED, label="self-collision")
+    right.set_xlim(right=1.7 * max(a + b for a, b in zip(without, extra)))
     right.set_title("self-collision on top")
-    right.legend(frameon=False, loc="lower right", bbox_to_anchor=(1, 1.05), ncols=2)
+    right.legend(frameon=False, loc="lower right", fontsize=8)
     return figure
 
 

@@ -13,9 +13,13 @@ namespace metamorph::bench {
 /// of kernels::step_body, everything else a template parameter, so that what differs between the
 /// opponents below is the fetch alone.
 ///
+/// What a part of the arithmetic costs is seen by leaving it out (`parts`).
+///
 /// A Fetch gives packs of nodes, NodePack own(int place), neighbour(int slot_place),
 /// edge(int edge_place), and takes the new state, put(int place, NodePack).
-template <class T, class Fetch>
+enum class Parts { all, without_roots, without_oscillation };
+
+template <class T, Parts parts, class Fetch>
 inline void step_rings(const kernels::BodyView<T>& body, const kernels::StepCoefficients<T>& c,
                        kernels::Turn<T> n, kernels::StepExtremes<T>& seen, Fetch& fetch) {
   using kernels::fma;
@@ -31,24 +35,31 @@ inline void step_rings(const kernels::BodyView<T>& body, const kernels::StepCoef
     const int place = g * width;
     const kernels::NodePack<T> self = fetch.own(place);
     Pack fx = zero, fy = zero;
-    const Pack own = fma(amplitude, oscillation(body.node_oscillator, place, n), one);
+    Pack own = one;
+    if constexpr (parts != Parts::without_oscillation) {
+      own = fma(amplitude, oscillation(body.node_oscillator, place, n), one);
+    }
     Pack before_dx = zero, before_dy = zero;
     for (int k = 0; k < body.ring_size[g]; ++k) {
       const int slot = (body.ring_begin[g] + k) * width;
       const kernels::NodePack<T> other = fetch.neighbour(slot);
       const Pack dx = other.x - self.x, dy = other.y - self.y;
-      const Pack length = sqrt(max(fma(dx, dx, dy * dy), tiny));
+      Pack length = max(fma(dx, dx, dy * dy), tiny);
+      if constexpr (parts != Parts::without_roots) length = sqrt(length);
       const Pack rest_area2 = Pack::load(body.rest_area2 + slot);
       const auto has_triangle = rest_area2 > zero;
       const Pack area2 = select(has_triangle, fma(before_dx, dy, -(before_dy * dx)), one);
-      const Pack inverse = one / (length * area2);
+      Pack inverse = length * area2;
+      if constexpr (parts != Parts::without_roots) inverse = one / inverse;
       const Pack inverse_length = inverse * area2, ratio = rest_area2 * (inverse * length);
       const Pack push =
           select(has_triangle, kernels::half_pressure(ratio, half_pressure_coefficient), zero);
       extremes.largest_ratio = max(ratio, extremes.largest_ratio);
       extremes.smallest_ratio = min(ratio, extremes.smallest_ratio);
-      const Pack rest_length = Pack::load(body.rest_length + slot) *
-                               fma(amplitude, oscillation(body.ring_oscillator, slot, n), own);
+      Pack rest_length = Pack::load(body.rest_length + slot);
+      if constexpr (parts != Parts::without_oscillation) {
+        rest_length *= fma(amplitude, oscillation(body.ring_oscillator, slot, n), own);
+      }
       const Pack tension = kernels::spring_tension<T>(
           dx, dy, other.vx - self.vx, other.vy - self.vy, length, inverse_length, rest_length,
           stiffness, damping, Pack::load(body.spring + slot));
@@ -245,7 +256,7 @@ class Records {
 };
 
 /// One animat stepped by step_rings() with the given fetch.
-template <class T, template <class> class Fetch>
+template <class T, template <class> class Fetch, Parts parts = Parts::all>
 class RingOpponent {
  public:
   RingOpponent(const core::Body& body, const core::Scene& scene)
@@ -261,7 +272,7 @@ class RingOpponent {
 
   void step(double /*time*/, double amplitude) {
     coefficients_.amplitude = static_cast<T>(amplitude);
-    step_rings<T>(view_, coefficients_, count_++, seen_, fetch_);
+    step_rings<T, parts>(view_, coefficients_, count_++, seen_, fetch_);
     fetch_.end_step();
   }
   double mean_x() const {

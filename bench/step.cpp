@@ -26,6 +26,7 @@ void simulate(benchmark::State& state, const std::vector<Body>& bodies, const Sc
   options.threads = 1;
   double springs_steps = 0, flop = 0, failed = 0;
   std::vector<core::Outcome> outcomes;
+  const HardwareCounters counters;
   for (auto _ : state) outcomes = core::simulate(tasks, options);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const auto steps = static_cast<double>(outcomes[i].steps);
@@ -33,7 +34,7 @@ void simulate(benchmark::State& state, const std::vector<Body>& bodies, const Sc
     flop += steps * water_step_flop(*tasks[i].body);
     failed += outcomes[i].failed_step >= 0;
   }
-  report(state, springs_steps, "spring-step");
+  report(state, counters, springs_steps, "spring-step");
   if (scene.drag && !scene.ground) report_flop(state, flop);
   state.counters["cells"] = outcomes.front().cells;
   state.counters["failed"] = failed;
