@@ -105,7 +105,8 @@ address_tier() {
   fi
   part 'build with address and undefined behaviour sanitizers' \
     build_all asan -DCMAKE_CXX_COMPILER=$compiler || return
-  run_ctest 'tests under address and undefined behaviour sanitizers' asan \
+  LSAN_OPTIONS=suppressions=$root/tests/leaks.supp:print_suppressions=0 \
+    run_ctest 'tests under address and undefined behaviour sanitizers' asan \
     --label-regex short --label-exclude unsanitized
 }
 
