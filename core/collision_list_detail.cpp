@@ -10,7 +10,7 @@ namespace metamorph::core {
 namespace {
 /// Width of the skin, d. A wider one is renewed less often and holds more pairs; results do not
 /// depend on it.
-constexpr double skin = 0.6;
+constexpr double skin = 1.0;
 }  // namespace
 
 template <class T>
@@ -94,12 +94,13 @@ void CollisionList<T>::find_close_at_rest() {
 }
 
 template <class T>
-bool CollisionList<T>::stale(const kernels::NodeRecord<T>* records) const {
+bool CollisionList<T>::stale(const kernels::NodeRecord<T>* records, const T* weight) const {
   if (!valid_) return true;
   if (nodes_.empty()) return false;
-  // Motion that all nodes share brings none closer: take the first node's as the common part.
-  const T moved2 = kernels::farthest_move2(records, x_.data(), y_.data(), groups_,
-                                           records[0].x - x_[0], records[0].y - y_[0]);
+  // A rigid motion brings no two points closer: only what is left of the motion without it counts,
+  // so that a body may swim and roll as far as it likes.
+  const auto motion = kernels::fit_rigid_motion(records, x_.data(), y_.data(), weight, groups_);
+  const T moved2 = kernels::farthest_move2(records, x_.data(), y_.data(), weight, groups_, motion);
   return !(moved2 < skin_ * skin_ / 4);
 }
 
@@ -154,8 +155,9 @@ void CollisionList<T>::add(std::uint32_t node, std::uint32_t first, std::uint32_
 }
 
 template <class T>
-kernels::CollisionPairs<T> CollisionList<T>::pairs(const kernels::NodeRecord<T>* records) {
-  if (stale(records)) renew(records);
+kernels::CollisionPairs<T> CollisionList<T>::pairs(const kernels::NodeRecord<T>* records,
+                                                   const T* weight) {
+  if (stale(records, weight)) renew(records);
   return {static_cast<int>(count_), pair_node_.data(), pair_first_.data(), pair_second_.data(),
           pair_threshold_.data()};
 }

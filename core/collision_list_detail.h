@@ -22,8 +22,9 @@ class CollisionList {
   void reset(const Body& body, const Scene& scene, std::span<const OutlineNode> nodes,
              std::span<const std::array<std::uint32_t, 2>> edges);
 
-  /// The pairs to test at the records' positions; renews the list if it is stale.
-  kernels::CollisionPairs<T> pairs(const kernels::NodeRecord<T>* records);
+  /// The pairs to test at the records' positions; renews the list if it is stale. `weight`: 1, or 0
+  /// in idle lanes.
+  kernels::CollisionPairs<T> pairs(const kernels::NodeRecord<T>* records, const T* weight);
 
  private:
   struct Edge {
@@ -31,7 +32,7 @@ class CollisionList {
     Index a, b;                   ///< nodes of the body
   };
 
-  bool stale(const kernels::NodeRecord<T>* records) const;
+  bool stale(const kernels::NodeRecord<T>* records, const T* weight) const;
   void renew(const kernels::NodeRecord<T>* records);
   void find_close_at_rest();
   T distance_at_rest(std::size_t node, const Edge& edge) const;

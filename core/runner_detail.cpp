@@ -104,9 +104,9 @@ void Runner<T>::step(std::uint64_t n) {
       std::fill(fx.begin(), fx.end(), T(0));
       std::fill(fy.begin(), fy.end(), T(0));
     }
-    touched_ = kernels::add_collision_forces(collisions_.pairs(view_.now), view_.now,
-                                             static_cast<T>(scene_->collision_stiffness), fx.data(),
-                                             fy.data()) > 0;
+    touched_ = kernels::add_collision_forces(collisions_.pairs(view_.now, view_.inverse_mass),
+                                             view_.now, static_cast<T>(scene_->collision_stiffness),
+                                             fx.data(), fy.data()) > 0;
     terms.extra = touched_;
   }
   step_function<T>(terms)(view_, coefficients_, static_cast<kernels::Turn<T>>(n), extremes_);

@@ -38,18 +38,70 @@ inline NearestOnSegment<T> nearest_on_segment(Lanes<T> px, Lanes<T> py, Lanes<T>
   return {share, dx, dy, fma(dx, dx, dy * dy)};
 }
 
-/// Largest squared distance that the nodes of `groups` lane groups have moved from (x, y), their
-/// common motion (shift_x, shift_y) left out. Idle lanes must hold their own position in (x, y).
+/// A rigid motion that carries points near to where they are now: turn about the first centre, then
+/// move it to the second.
 template <class T>
-inline T farthest_move2(const NodeRecord<T>* records, const T* x, const T* y, int groups, T shift_x,
-                        T shift_y) {
-  Lanes<T> farthest(T(0));
+struct RigidMotion {
+  T from_x, from_y, to_x, to_y, cosine, sine;
+};
+
+template <class T>
+inline T sum(Lanes<T> pack) {
+  T value = T(0);
+  for (int l = 0; l < Lanes<T>::width; ++l) value += pack[l];
+  return value;
+}
+
+/// The rigid motion that fits best how the nodes of `groups` lane groups have moved from (x, y).
+/// `weight` [groups * width] is 0 in idle lanes, else 1.
+template <class T>
+inline RigidMotion<T> fit_rigid_motion(const NodeRecord<T>* records, const T* x, const T* y,
+                                       const T* weight, int groups) {
+  using Pack = Lanes<T>;
+  const Pack zero(T(0));
+  Pack count = zero, sum_x = zero, sum_y = zero, sum_u = zero, sum_v = zero;
+  Pack xu = zero, yv = zero, xv = zero, yu = zero;
   for (int g = 0; g < groups; ++g) {
-    const int base = g * Lanes<T>::width;
+    const int base = g * Pack::width;
     const NodePack<T> now = load(records + base);
-    const Lanes<T> dx = now.x - Lanes<T>::load(x + base) - Lanes<T>(shift_x);
-    const Lanes<T> dy = now.y - Lanes<T>::load(y + base) - Lanes<T>(shift_y);
-    farthest = max(farthest, fma(dx, dx, dy * dy));
+    const Pack w = Pack::load(weight + base);
+    const Pack px = w * Pack::load(x + base), py = w * Pack::load(y + base);
+    const Pack u = w * now.x, v = w * now.y;
+    count += w;
+    sum_x += px;
+    sum_y += py;
+    sum_u += u;
+    sum_v += v;
+    xu = fma(px, u, xu);
+    yv = fma(py, v, yv);
+    xv = fma(px, v, xv);
+    yu = fma(py, u, yu);
+  }
+  const T n = sum(count), from_x = sum(sum_x) / n, from_y = sum(sum_y) / n;
+  const T to_x = sum(sum_u) / n, to_y = sum(sum_v) / n;
+  // Sums of products about the centres: the dot and the cross product of before and now.
+  const T dot = sum(xu) + sum(yv) - n * (from_x * to_x + from_y * to_y);
+  const T cross = sum(xv) - sum(yu) - n * (from_x * to_y - from_y * to_x);
+  const T size = std::sqrt(dot * dot + cross * cross);
+  if (!(size > T(0))) return {from_x, from_y, to_x, to_y, T(1), T(0)};
+  return {from_x, from_y, to_x, to_y, dot / size, cross / size};
+}
+
+/// Largest squared distance of the nodes from where the rigid motion carries (x, y).
+template <class T>
+inline T farthest_move2(const NodeRecord<T>* records, const T* x, const T* y, const T* weight,
+                        int groups, const RigidMotion<T>& motion) {
+  using Pack = Lanes<T>;
+  const Pack cosine(motion.cosine), sine(motion.sine);
+  Pack farthest(T(0));
+  for (int g = 0; g < groups; ++g) {
+    const int base = g * Pack::width;
+    const NodePack<T> now = load(records + base);
+    const Pack px = Pack::load(x + base) - Pack(motion.from_x);
+    const Pack py = Pack::load(y + base) - Pack(motion.from_y);
+    const Pack dx = now.x - Pack(motion.to_x) - fma(cosine, px, -(sine * py));
+    const Pack dy = now.y - Pack(motion.to_y) - fma(sine, px, cosine * py);
+    farthest = max(Pack::load(weight + base) * fma(dx, dx, dy * dy), farthest);
   }
   return largest(farthest);
 }
@@ -57,9 +109,15 @@ inline T farthest_move2(const NodeRecord<T>* records, const T* x, const T* y, in
 /// The lanes of one group whose node lies within `reach` of segment ab, as bits.
 template <class T>
 inline std::uint32_t near_segment(const T* x, const T* y, T ax, T ay, T bx, T by, T reach) {
-  const auto near = nearest_on_segment<T>(Lanes<T>::load(x), Lanes<T>::load(y), Lanes<T>(ax),
-                                          Lanes<T>(ay), Lanes<T>(bx), Lanes<T>(by));
-  return bits(near.distance2 < Lanes<T>(reach * reach));
+  using Pack = Lanes<T>;
+  // Most groups are far away: no node can be near if none is in the circle around the segment.
+  const Pack mx((ax + bx) / 2), my((ay + by) / 2), px = Pack::load(x), py = Pack::load(y);
+  const T half = std::sqrt((bx - ax) * (bx - ax) + (by - ay) * (by - ay)) / 2;
+  const T radius = (reach + half) * T(1.001);
+  const Pack dx = px - mx, dy = py - my;
+  if (bits(fma(dx, dx, dy * dy) < Pack(radius * radius)) == 0) return 0;
+  const auto near = nearest_on_segment<T>(px, py, Pack(ax), Pack(ay), Pack(bx), Pack(by));
+  return bits(near.distance2 < Pack(reach * reach));
 }
 
 /// Adds the elastic penalty of every pair closer than its threshold (MODEL section 4):
