@@ -11,6 +11,7 @@ enum class Purpose : std::uint32_t {
   crossover = 3,
   mutation = 4,
   species_choice = 5,
+  nearby_start = 6,
   test = 1000,
 };
 

@@ -10,6 +10,7 @@ namespace metamorph::evolve {
 // Callbacks throw InputError for what a person can mend; main() prints it. A new command costs its
 // own file, a line here and one in main.cpp.
 
+void add_audit_command(CLI::App& app);
 void add_evolve_command(CLI::App& app);
 void add_export_command(CLI::App& app);
 void add_grow_command(CLI::App& app);
