@@ -143,22 +143,25 @@ void novelty(benchmark::State& state) {
   report(state, 1, "generation");
 }
 
+void add(const std::string& larva, const std::string& adult, int threads) {
+  const std::string name =
+      "generation/" + larva + "-to-" + adult + "/threads:" + std::to_string(threads);
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [larva, adult, threads](benchmark::State& state) {
+                                 generation(state, larva, adult, threads);
+                               })
+      ->Unit(benchmark::kMillisecond)
+      ->MeasureProcessCPUTime()
+      ->UseRealTime();
+}
+
 void add_generations() {
   std::vector<int> threads = {1};
   if (omp_get_max_threads() > 1) threads.push_back(2);
   if (omp_get_max_threads() > 2) threads.push_back(omp_get_max_threads());
   for (const int count : threads) {
-    for (const auto& [larva, adult] : {std::pair("water", "land"), std::pair("land", "water")}) {
-      const std::string name =
-          std::string("generation/") + larva + "-to-" + adult + "/threads:" + std::to_string(count);
-      benchmark::RegisterBenchmark(name.c_str(),
-                                   [larva = larva, adult = adult, count](benchmark::State& state) {
-                                     generation(state, larva, adult, count);
-                                   })
-          ->Unit(benchmark::kMillisecond)
-          ->MeasureProcessCPUTime()
-          ->UseRealTime();
-    }
+    add("water", "land", count);
+    add("land", "water", count);
   }
 }
 
