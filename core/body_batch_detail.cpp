@@ -101,6 +101,8 @@ BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, in
   const std::size_t lanes = total.groups * width, slots = total.slots * width;
   ring_begin_.resize(total.groups);
   ring_size_.resize(total.groups);
+  ring_closed_.resize(total.groups);
+  before_.resize(lanes);
   edge_begin_.resize(total.edge_groups);
   edge_size_.resize(total.edge_groups);
   neighbour_.resize(slots);
@@ -159,6 +161,9 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
       const std::size_t here = (offset.groups * width) + lane;
       const bool real = lane < nodes;
       const auto node = real ? at(plan.order[lane]) : 0;
+      const Index before = real ? plan.rings.before[node] : -1;
+      before_[here] = kernels::record_offset<T>(before >= 0 ? plan.lane[at(before)] : lane);
+      if (before >= 0) ring_closed_[group] = 1;
       if (real) {
         node_of_lane_[here] = plan.order[lane];
         inverse_mass_[here] = T(1);
@@ -234,6 +239,8 @@ kernels::BodyView<T> BodyBatch<T>::view(std::size_t i) {
   view.outline_groups = extent.outline_groups;
   view.ring_begin = ring_begin_.data() + offset.groups;
   view.ring_size = ring_size_.data() + offset.groups;
+  view.ring_closed = ring_closed_.data() + offset.groups;
+  view.before = before_.data() + lanes;
   view.neighbour = neighbour_.data() + slots;
   view.rest_length = rest_length_.data() + slots;
   view.spring = spring_.data() + slots;

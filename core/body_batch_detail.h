@@ -75,8 +75,8 @@ class BodyBatch {
   std::vector<Offset> offset_;
 
   // [groups of all bodies], [slots], ... each entry `width` wide where lanes are concerned.
-  std::vector<int> ring_begin_, ring_size_, edge_begin_, edge_size_;
-  Aligned<std::uint32_t> neighbour_, edge_other_;
+  std::vector<int> ring_begin_, ring_size_, ring_closed_, edge_begin_, edge_size_;
+  Aligned<std::uint32_t> neighbour_, before_, edge_other_;
   Aligned<T> rest_length_, spring_, rest_area2_, inverse_mass_, edge_present_;
   Aligned<kernels::Turn<T>> ring_start_, ring_per_step_, node_start_, node_per_step_;
   Aligned<kernels::NodeRecord<T>> records_a_, records_b_;

@@ -80,6 +80,8 @@ Rings make_rings(const Body& body) {
       return spring;
     };
 
+    const std::size_t node_begin = rings.slots.size();
+    rings.before.push_back(-1);
     while (!fan.empty()) {
       // An open fan starts at a neighbour that no triangle of this node ends at; if there is none,
       // what is left are closed fans.
@@ -90,17 +92,24 @@ Rings make_rings(const Body& body) {
       const bool open = start != fan.end();
       if (!open) start = fan.begin();
       const Index first = start->next;
+      const std::size_t first_slot = rings.slots.size();
       rings.slots.push_back({first, take_spring(first), -1});
       if (open) rings.edge_other.push_back(first);
-      auto corner = start;
       Index last = first;
-      while (corner != fan.end()) {
-        last = corner->after;
-        const Index triangle = corner->triangle;
+      for (auto corner = start; corner != fan.end();
+           corner = std::find_if(fan.begin(), fan.end(),
+                                 [&](const Corner& other) { return other.next == last; })) {
+        const Index triangle = corner->triangle, after = corner->after;
         fan.erase(corner);
-        rings.slots.push_back({last, take_spring(last), triangle});
-        corner = std::find_if(fan.begin(), fan.end(),
-                              [&](const Corner& other) { return other.next == last; });
+        if (after != first) {
+          rings.slots.push_back({after, take_spring(after), triangle});
+        } else if (first_slot == node_begin) {
+          rings.before.back() = last;
+          rings.slots[first_slot].triangle = triangle;
+        } else {
+          rings.slots.push_back({first, -1, triangle});
+        }
+        last = after;
         if (last == first) break;
       }
       if (open) rings.edge_other.push_back(last);

@@ -18,6 +18,7 @@ struct RingSlot {
 struct Rings {
   std::vector<int> begin;  ///< [nodes + 1] first slot of a node
   std::vector<RingSlot> slots;
+  std::vector<Index> before;  ///< [nodes] neighbour before the first slot of a closed ring; else -1
   std::vector<int> edge_begin;    ///< [nodes + 1] first outline edge of a node
   std::vector<Index> edge_other;  ///< the other end of an outline edge
 
@@ -30,9 +31,11 @@ struct Rings {
   }
 };
 
-/// Rings of a sound body: each fan counter-clockwise, open fans from their first edge, closed ones
-/// from the lowest neighbour; several fans (a pinch) by their first neighbour. Springs on no
-/// triangle follow in slots of their own.
+/// Rings of a sound body, counter-clockwise. A closed ring starts at its lowest neighbour, whose
+/// slot holds the triangle to the last one (`before`). Otherwise there is one open fan after the
+/// other (several at a pinch), by their first neighbour, each from its first edge. (A closed fan
+/// beside others, which only a file can hold, repeats its first neighbour without spring.) Springs
+/// on no triangle follow in slots of their own.
 Rings make_rings(const Body& body);
 
 }  // namespace metamorph::core

@@ -76,6 +76,13 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
     }
 
     Pack before_dx = zero, before_dy = zero;
+    if constexpr (terms.pressure) {
+      if (body.ring_closed[g] != 0) {
+        const NodePack<T> before = gather(body.now, body.before + node_base);
+        before_dx = before.x - self.x;
+        before_dy = before.y - self.y;
+      }
+    }
     for (int k = 0; k < body.ring_size[g]; ++k) {
       const int base = lane_index<T>(body.ring_begin[g] + k);
       const NodePack<T> other = gather(body.now, body.neighbour + base);

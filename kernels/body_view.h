@@ -12,9 +12,10 @@
 /// register's width. Every node carries its ring: the neighbours around it, counter-clockwise, one
 /// slot each, so that it sums its own springs and triangle corners and nothing is ever scattered.
 /// Each spring is thus computed twice and each triangle three times, which is still faster than
-/// gathers and scatters over a spring list (measured: see bench/). A closed ring repeats its first
-/// neighbour in a last slot that holds a triangle but no spring; a pinch node holds one fan after
-/// the other, with no triangle in the slot where the next fan begins.
+/// gathers and scatters over a spring list (measured: see bench/). A slot holds the spring to its
+/// neighbour and the triangle between it and the slot before; in a closed ring the first slot's
+/// triangle leads to the last neighbour (`before`). A pinch node holds one fan after the other,
+/// with no triangle in the slot where the next fan begins.
 namespace metamorph::kernels {
 
 template <class T>
@@ -34,8 +35,12 @@ struct BodyView {
   int outline_groups = 0;  ///< the first groups, which hold every outline node
 
   // [groups]
-  const int* ring_begin = nullptr;  ///< first slot of the group
-  const int* ring_size = nullptr;   ///< its slots
+  const int* ring_begin = nullptr;   ///< first slot of the group
+  const int* ring_size = nullptr;    ///< its slots
+  const int* ring_closed = nullptr;  ///< 1 if a lane of the group has a closed ring
+  // [groups * width]
+  const std::uint32_t* before =
+      nullptr;  ///< record offset of the last neighbour of a closed ring; else its own
   // [slots * width]
   const std::uint32_t* neighbour = nullptr;  ///< record offset; its own where there is no such slot
   const T* rest_length = nullptr;            ///< L0, d
