@@ -13,7 +13,7 @@ namespace metamorph::bench {
 /// running over it, all periods 40. Nothing of it touches itself.
 core::Body lattice_disc(int cells);
 
-/// Evolved genomes of a novelty search, shipped in bench/genomes/.
+/// Evolved genomes of a novelty search, shipped as bench/genomes/evolved-*.json.
 std::vector<evolve::Genome> evolved_genomes();
 
 /// Bodies of the evolved genomes at a step of development; those that have none are left out.

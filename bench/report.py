@@ -1,17 +1,20 @@
 """Turns the JSON files of the benchmark programs into CSV: every benchmark's time per unit of work,
 and every bar with what was measured for it.
 
-    python3 bench/report.py RAW_FOLDER OUT_FOLDER
+    python3 bench/report.py RAW_FOLDER OUT_FOLDER [PAGE]
 
-Writes OUT_FOLDER/<processor>.csv and OUT_FOLDER/<processor>-bars.csv and prints the bars. Times are
-the least of all repetitions (the machine may be shared; what disturbs a run only adds time), with
-the median beside them.
+Writes OUT_FOLDER/<processor>.csv and OUT_FOLDER/<processor>-bars.csv, prints the bars, and renews
+the tables of a page (Markdown) between its lines "<!-- bars -->", "<!-- arrangements -->" and the
+next "<!-- end -->". Times are the least of all repetitions (the machine may be shared; what disturbs
+a run only adds time), with the median beside them.
 """
 
 import csv
 import json
+import os
 import re
 import statistics
+import subprocess
 import sys
 from pathlib import Path
 
@@ -157,6 +160,77 @@ def machine_name():
     return "processor"
 
 
+def built_with(raw):
+    """Compiler and instruction set of the build that the raw folder lies in."""
+    cache = next((folder / "CMakeCache.txt" for folder in raw.resolve().parents
+                  if (folder / "CMakeCache.txt").exists()), None)
+    entries = dict(re.findall(r"^(\w+):\w+=(.*)$", cache.read_text(), re.M)) if cache else {}
+    compiler = entries.get("CMAKE_CXX_COMPILER", "c++")
+    version = subprocess.run([compiler, "-dumpfullversion", "-dumpversion"], capture_output=True,
+                             text=True, check=False).stdout.strip()
+    return f"{Path(compiler).name} {version}, -march={entries.get('METAMORPH_ARCH', 'native')}"
+
+
+def crowding(benchmarks):
+    """Wall time against CPU time of the benchmarks of one thread: 1 on an idle machine."""
+    return statistics.median(b.per_unit("real_time") / b.per_unit("cpu_time")
+                             for b in benchmarks.values() if b.clock() == "cpu_time")
+
+
+def bars_table(rows, raw, crowded):
+    """The bars as Markdown, with the machine they were measured on."""
+    model = machine_name().replace("-", " ").upper()
+    yield f"{model}, {os.cpu_count()} cores, {built_with(raw)}."
+    if crowded > 1.1:
+        yield (f"The machine was busy with other work: on one thread, {crowded:.1f} times more wall "
+               "time than CPU time went by. Bars in wall time (generations, threads) say nothing in "
+               "such a run, and shared caches and clock rates make the others worse.")
+    yield ""
+    yield "| what | bar | moonshot | measured | | benchmark |"
+    yield "|---|---|---|---|---|---|"
+    for what, comparison, bar, moonshot, measured, unit, judged, command in rows:
+        sign = comparison.replace("<=", "≤").replace(">=", "≥")
+        yield (f"| {what} | {sign} {bar:g} {unit} | {moonshot:g} | {measured or '–'} | {judged} "
+               f"| `{command}` |")
+
+
+ARRANGEMENTS = [
+    ("library", "the library: `simulate()`, packing and checks included"),
+    ("records", "its step alone: lane = node, 16-byte records, loads and transposition"),
+    ("floor", "floor: the same arithmetic, neighbours read from contiguous arrays"),
+    ("floor-without-roots", "floor without square root and division"),
+    ("floor-without-oscillation", "floor without the sine of the oscillators"),
+    ("lane-is-node-hardware-gathers", "lane = node, hardware gathers"),
+    ("scalar-tidy", "tidy scalar loop, arrays of structs"),
+    ("scalar-plain-arrays", "scalar loop, plain arrays"),
+    ("lane-is-animat", "lane = animat, `omp simd`, gathers and scatters"),
+    ("reference", "reference simulator (double, clarity first)"),
+]
+
+
+def arrangements_table(benchmarks):
+    """Time, cycles and instructions of every arrangement as Markdown."""
+    yield "| arrangement | float: ns | cycles | instructions | double: ns | cycles | instructions |"
+    yield "|---|---|---|---|---|---|---|"
+    for name, label in ARRANGEMENTS:
+        cells = []
+        for precision in ("float", "double"):
+            found = benchmarks.get(("bench_alternatives", f"{name}/{precision}/128"))
+            counters = found.counters() if found else {}
+            cells += [f"{found.per_unit('cpu_time'):.2f}" if found else "–"]
+            cells += [f"{counters[k]:.1f}" if k in counters else "–"
+                      for k in ("cycles", "instructions")]
+        yield f"| {label} | {' | '.join(cells)} |"
+
+
+def renew_table(page, marker, lines):
+    text = page.read_text()
+    table = "\n".join(lines)
+    page.write_text(re.sub(rf"(<!-- {marker} -->\n).*?(<!-- end -->)",
+                           lambda m: f"{m.group(1)}\n{table}\n\n{m.group(2)}", text, count=1,
+                           flags=re.S))
+
+
 def rounded(value):
     return "" if value is None else f"{value:.4g}"
 
@@ -179,20 +253,24 @@ def main():
                 + [rounded(benchmark.gflop_per_s()), len(benchmark.runs),
                    " ".join(f"{k}={v:.6g}" for k, v in benchmark.counters().items())])
 
+    rows = []
+    for what, comparison, bar, moonshot, unit, command, measure in Bars(benchmarks).all():
+        try:
+            value = measure()
+        except (KeyError, ValueError):
+            measured, judged = "", "not measured"
+        else:
+            measured, judged = rounded(value), verdict(value, comparison, bar, moonshot)
+        rows.append([what, comparison, bar, moonshot, measured, unit, judged, command])
+        print(f"{judged:12}  {measured:>8} {unit:20} {comparison} {bar:<5} {what}")
     with open(out / f"{name}-bars.csv", "w", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["bar", "comparison", "limit", "moonshot", "measured", "unit", "verdict",
                         "benchmarks"])
-        for what, comparison, bar, moonshot, unit, command, measure in Bars(benchmarks).all():
-            try:
-                value = measure()
-            except (KeyError, ValueError):
-                row = [what, comparison, bar, moonshot, "", unit, "not measured", command]
-            else:
-                row = [what, comparison, bar, moonshot, rounded(value), unit,
-                       verdict(value, comparison, bar, moonshot), command]
-            table.writerow(row)
-            print(f"{row[6]:12}  {row[4]:>8} {unit:20} {comparison} {bar:<5} {what}")
+        table.writerows(rows)
+    if len(sys.argv) > 3:
+        renew_table(Path(sys.argv[3]), "bars", bars_table(rows, raw, crowding(benchmarks)))
+        renew_table(Path(sys.argv[3]), "arrangements", arrangements_table(benchmarks))
     for error in errors:
         print("FAILED", error)
     print(f"written: {out / name}.csv, {out / name}-bars.csv")

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, runs every benchmark and draws the charts (about six minutes):
+# Installs what is missing, builds, runs every benchmark and draws the charts (about six minutes on an idle machine):
 #   bash bench/run.sh           writes bench/results/<processor>.csv, <processor>-bars.csv, bench/charts/
 #   bash bench/run.sh --quick   fewer and shorter repetitions; writes under build/release/bench/ only
 # Leave the machine alone meanwhile: times are the least of all repetitions, but threads cannot be
@@ -11,12 +11,12 @@ libbenchmark-dev     header:benchmark/benchmark.h
 python3              program:python3
 python3-matplotlib   program:python3'
 folder=build/release/bench
-results=bench/results charts=bench/charts
+results=bench/results charts=bench/charts page=bench/SPEED.md
 options=(--benchmark_repetitions=5 --benchmark_min_time=0.1)
 case "${1:-}" in
   '') ;;
   --quick)
-    results=$folder/results charts=$folder/charts
+    results=$folder/results charts=$folder/charts page=
     # Batches of 10,000 and all that lasts longest are left out.
     options=(--benchmark_repetitions=2 --benchmark_min_time=0.02
       '--benchmark_filter=-batch/.*/10000|land-to-water|generation/.*/threads:1')
@@ -46,4 +46,4 @@ done
 # Debian's packages belong to its own Python, which need not be the first.
 python=python3
 "$python" -c 'import matplotlib' 2>/dev/null || python=/usr/bin/python3
-"$python" bench/report.py "$raw" "$results" && "$python" bench/plot_speed.py "$results" "$charts"
+"$python" bench/report.py "$raw" "$results" $page && "$python" bench/plot_speed.py "$results" "$charts"
