@@ -71,8 +71,12 @@ void compare(TrialAudit& audited, const Genome& genome, const Experiment& experi
   audited.replay_deviation =
       relative_deviation(audited.replay.distance, audited.reference.distance);
   if (scene.ground && options.nearby_starts > 0) {
-    audited.nearby = run_nearby_starts(extraction.body, scene, experiment.locomotion.method,
-                                       options.nearby_starts, options.displacement);
+    const auto nearby = [&](double displacement) {
+      return run_nearby_starts(extraction.body, scene, experiment.locomotion.method,
+                               options.nearby_starts, displacement);
+    };
+    audited.nearby = nearby(options.displacement);
+    audited.disturbed = nearby(options.disturbance);
   }
 }
 
@@ -102,7 +106,7 @@ void close_champion(ChampionAudit& audited, const Evaluation& replay) {
 
 TrialSummary summary_of(const std::vector<ChampionAudit>& champions, std::size_t trial) {
   TrialSummary summary;
-  std::vector<double> recorded, replay, predictable_for, growth, spread;
+  std::vector<double> recorded, replay, predictable_for, growth, spread, disturbed, luck;
   for (const ChampionAudit& champion : champions) {
     const TrialAudit& audited = champion.trials[trial];
     if (!audited.compared) continue;
@@ -118,6 +122,10 @@ TrialSummary summary_of(const std::vector<ChampionAudit>& champions, std::size_t
     }
     if (audited.replay.distance > 0) {
       spread.push_back(audited.nearby.spread / audited.replay.distance);
+      disturbed.push_back(audited.disturbed.spread / audited.replay.distance);
+      if (audited.disturbed.starts > audited.disturbed.failed) {
+        luck.push_back(relative_deviation(audited.replay.distance, audited.disturbed.mean));
+      }
     }
   }
   summary.recorded = range_of(recorded);
@@ -125,7 +133,12 @@ TrialSummary summary_of(const std::vector<ChampionAudit>& champions, std::size_t
   summary.predictable_for = median(predictable_for);
   summary.growth = median(growth);
   summary.spread = median(spread);
-  if (!spread.empty()) summary.worst_spread = *std::max_element(spread.begin(), spread.end());
+  summary.luck = range_of(luck);
+  summary.disturbed_spread = median(disturbed);
+  if (!spread.empty()) {
+    summary.worst_spread = *std::max_element(spread.begin(), spread.end());
+    summary.worst_disturbed_spread = *std::max_element(disturbed.begin(), disturbed.end());
+  }
   return summary;
 }
 
@@ -167,6 +180,13 @@ double kendall_tau(const std::vector<double>& a, const std::vector<double>& b) {
   if (pairs_a == 0 && pairs_b == 0) return 1;
   if (pairs_a == 0 || pairs_b == 0) return 0;
   return agreement / std::sqrt(pairs_a * pairs_b);
+}
+
+int confirmed_within(const RunAudit& audited, double share, bool replay) {
+  return static_cast<int>(std::count_if(
+      audited.champions.begin(), audited.champions.end(), [&](const ChampionAudit& champion) {
+        return std::abs(replay ? champion.replay_deviation : champion.deviation) <= share;
+      }));
 }
 
 DeviationRange range_of(std::vector<double> deviations) {

@@ -14,7 +14,8 @@ struct AuditOptions {
   int champions = 50;          ///< at most so many distinct ones: the best by recorded eq 6
   int every = 1;               ///< only generations divisible by this
   int nearby_starts = 4;       ///< per champion and trial with ground; 0: none
-  double displacement = 1e-6;  ///< d, of those starts
+  double displacement = 1e-6;  ///< d, of those starts: does the gait forget it or blow it up?
+  double disturbance = 1e-3;   ///< d, of as many other starts: does the distance bear it?
   int threads = 0;             ///< 0: all there are
 };
 
@@ -35,7 +36,8 @@ struct TrialAudit {
   core::Outcome reference;       ///< double precision at a quarter of the step
   double deviation = 0;          ///< relative_deviation() of the recorded distance
   double replay_deviation = 0;   ///< and of the replay's
-  NearbyStarts nearby;           ///< where there is ground
+  NearbyStarts nearby;           ///< where there is ground: by options.displacement
+  NearbyStarts disturbed;        ///< likewise by options.disturbance
 };
 
 struct ChampionAudit {
@@ -66,6 +68,10 @@ struct TrialSummary {
   double growth = 0;           ///< median
   double spread = 0;           ///< median, relative to the distance
   double worst_spread = 0;
+  double disturbed_spread = 0;  ///< the same two for NearbyStarts by options.disturbance
+  double worst_disturbed_spread = 0;
+  DeviationRange luck;  ///< of the replay from the mean of the disturbed starts: bias above 0 if
+                        ///< the search picked bodies for how they happened to start
 };
 
 struct RunAudit {
@@ -80,6 +86,10 @@ struct RunAudit {
 /// Kendall's tau-b of two lists of one length: 1 the same order, -1 the opposite; 1 where there is
 /// no pair to compare.
 double kendall_tau(const std::vector<double>& a, const std::vector<double>& b);
+
+/// Champions whose eq 6 the reference confirms within a share of it: the recorded one, or with
+/// `replay` that of the replay.
+int confirmed_within(const RunAudit& audited, double share, bool replay);
 
 DeviationRange range_of(std::vector<double> deviations);
 

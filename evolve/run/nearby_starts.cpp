@@ -88,6 +88,7 @@ NearbyStarts run_nearby_starts(const core::Body& body, const core::Scene& scene,
       ++result.failed;
       continue;
     }
+    result.mean += changed.outcome.distance;
     result.spread =
         std::max(result.spread, std::abs(changed.outcome.distance - unchanged.outcome.distance));
     result.growth = std::max(result.growth, separation(unchanged, changed) / displacement);
@@ -96,6 +97,7 @@ NearbyStarts run_nearby_starts(const core::Body& body, const core::Scene& scene,
       result.predictable_for = std::min(result.predictable_for, *time);
     }
   }
+  if (result.starts > result.failed) result.mean /= result.starts - result.failed;
   return result;
 }
 

@@ -58,6 +58,8 @@ TEST_F(Audit, AReplayGivesTheRecordedBits) {
     EXPECT_EQ(champion.replay_eq6, champion.champion.eq6);
     EXPECT_EQ(champion.deviation, champion.replay_deviation);
   }
+  EXPECT_EQ(confirmed_within(audited, 1, false), audited.distinct);
+  EXPECT_EQ(confirmed_within(audited, -1, true), 0);
 }
 
 TEST_F(Audit, AChampionThatStaysIsAuditedOnce) {
@@ -171,7 +173,7 @@ TEST_F(Audit, TableEndsWithHowFarToTrust) {
   const auto told = run_program(directory_.path(), "audit run --champions 1");
   ASSERT_EQ(told.exit_code, 0) << told.err;
   EXPECT_THAT(told.out, HasSubstr("every replay gives the recorded bits"));
-  EXPECT_THAT(told.out, HasSubstr("\ntrust: differences in eq 6 below "));
+  EXPECT_THAT(told.out, HasSubstr("\ntrust: the reference confirms eq 6 of "));
 }
 
 TEST_F(Audit, WrongInputGetsALine) {
@@ -261,6 +263,9 @@ TEST(NearbyStarts, LandPartsThemMoreTheFartherTheyStart) {
       run_nearby_starts(strip(8), land, core::Method::drift_kick_drift, 2, 0.05);
   EXPECT_EQ(near.starts, 2);
   EXPECT_GT(far.spread, near.spread);
+  // The mean of the changed starts lies no farther from the unchanged one than the farthest, and
+  // the unchanged one is the same in both.
+  EXPECT_LE(std::abs(far.mean - near.mean), far.spread + near.spread);
   EXPECT_LE(far.predictable_for, near.predictable_for);
 }
 
