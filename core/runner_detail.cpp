@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/scene_terms_detail.h"
+
 namespace metamorph::core {
 namespace {
 
@@ -24,49 +26,17 @@ template <class T>
 using StepFunction = void (*)(const kernels::BodyView<T>&, const kernels::StepCoefficients<T>&,
                               kernels::Turn<T>, kernels::StepExtremes<T>&);
 
-constexpr kernels::Terms terms_of(unsigned bits) {
-  return {.pressure = (bits & 1u) != 0,
-          .drag = (bits & 2u) != 0,
-          .ground = (bits & 4u) != 0,
-          .actuation = (bits & 8u) != 0,
-          .settling = (bits & 8u) == 0,
-          .extra = (bits & 16u) != 0};
-}
-
-constexpr unsigned bits_of(const kernels::Terms& terms) {
-  return (terms.pressure ? 1u : 0u) | (terms.drag ? 2u : 0u) | (terms.ground ? 4u : 0u) |
-         (terms.actuation ? 8u : 0u) | (terms.extra ? 16u : 0u);
-}
-
 template <class T, unsigned... bits>
 constexpr auto step_table(std::integer_sequence<unsigned, bits...>) {
-  return std::array<StepFunction<T>, sizeof...(bits)>{&kernels::step_body<T, terms_of(bits)>...};
+  return std::array<StepFunction<T>, sizeof...(bits)>{
+      &kernels::step_body<T, kernels::terms_from(bits)>...};
 }
 
 template <class T>
 StepFunction<T> step_function(const kernels::Terms& terms) {
-  static constexpr auto table = step_table<T>(std::make_integer_sequence<unsigned, 32>{});
-  return table[bits_of(terms)];
-}
-
-template <class T>
-kernels::StepCoefficients<T> coefficients(const Scene& scene, Method method) {
-  kernels::StepCoefficients<T> c;
-  const double angle = scene.slope_degrees * 3.14159265358979323846 / 180;
-  c.step = static_cast<T>(scene.step);
-  c.extrapolate = method == Method::drift_kick_drift ? static_cast<T>(scene.step / 2) : T(0);
-  c.stiffness = static_cast<T>(scene.stiffness);
-  c.damping = static_cast<T>(scene.damping);
-  c.pressure = static_cast<T>(scene.pressure);
-  c.drag_normal = static_cast<T>(scene.drag_normal);
-  c.drag_tangential = static_cast<T>(scene.drag_tangential);
-  c.gravity_x = static_cast<T>(-scene.gravity * std::sin(angle));
-  c.gravity_y = static_cast<T>(-scene.gravity * std::cos(angle));
-  c.ground_stiffness = static_cast<T>(scene.ground_stiffness);
-  c.ground_damping = static_cast<T>(scene.ground_damping);
-  c.friction = static_cast<T>(scene.friction);
-  c.settle_drag = static_cast<T>(scene.settle_drag);
-  return c;
+  static constexpr auto table =
+      step_table<T>(std::make_integer_sequence<unsigned, 1u << kernels::term_bits>{});
+  return table[kernels::bits_of(terms)];
 }
 
 }  // namespace
@@ -78,7 +48,7 @@ void Runner<T>::run(std::size_t i, const LocomotionTask& task, Outcome& outcome,
   scene_ = task.scene;
   index_ = i;
   view_ = batch_.view(i);
-  coefficients_ = coefficients<T>(*scene_, method_);
+  coefficients_ = coefficients_of<T>(*scene_, method_);
   step_ = scene_->step;
   extremes_ = {};
   touched_ = false;
@@ -91,13 +61,7 @@ void Runner<T>::run(std::size_t i, const LocomotionTask& task, Outcome& outcome,
 
 template <class T>
 void Runner<T>::step(std::uint64_t n) {
-  kernels::Terms terms;
-  terms.pressure = scene_->pressure > 0;
-  terms.drag = scene_->drag;
-  terms.ground = scene_->ground;
-  terms.actuation = !settling_;
-  terms.settling = settling_;
-  terms.extra = false;
+  kernels::Terms terms = terms_of(*scene_, settling_);
   if (scene_->self_collision) {
     const auto fx = batch_.extra_fx(index_), fy = batch_.extra_fy(index_);
     if (touched_) {
@@ -154,7 +118,7 @@ template <class T>
 void Runner<T>::end_settling() {
   settling_ = false;
   step_ = scene_->step;
-  coefficients_ = coefficients<T>(*scene_, method_);
+  coefficients_ = coefficients_of<T>(*scene_, method_);
   for (int l = 0; l < view_.nodes; ++l) {
     kernels::NodeRecord<T>& record = view_.now[l];
     record.x = std::fma(coefficients_.extrapolate, view_.vx[l], record.x);

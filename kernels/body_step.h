@@ -17,9 +17,24 @@ struct Terms {
   bool drag = false;      ///< of outline edges, eq 4 and 5
   bool ground = false;    ///< gravity, contact, friction
   bool actuation = true;  ///< eq 3
-  bool settling = false;  ///< drag on every node
   bool extra = false;     ///< forces from outside the step
+
+  constexpr bool settling() const { return !actuation; }  ///< then every node has drag of its own
 };
+
+/// Terms as bits, to tabulate every composition.
+inline constexpr int term_bits = 5;
+constexpr Terms terms_from(unsigned bits) {
+  return {.pressure = (bits & 1u) != 0,
+          .drag = (bits & 2u) != 0,
+          .ground = (bits & 4u) != 0,
+          .actuation = (bits & 8u) != 0,
+          .extra = (bits & 16u) != 0};
+}
+constexpr unsigned bits_of(const Terms& terms) {
+  return (terms.pressure ? 1u : 0u) | (terms.drag ? 2u : 0u) | (terms.ground ? 4u : 0u) |
+         (terms.actuation ? 8u : 0u) | (terms.extra ? 16u : 0u);
+}
 
 /// Coefficients of a step, one value for all lanes.
 template <class T>
@@ -142,7 +157,7 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
       fx += Pack(c.gravity_x);
       fy += Pack(c.gravity_y) + normal;
     }
-    if constexpr (terms.settling) {
+    if constexpr (terms.settling()) {
       fx = fma(Pack(-c.settle_drag), self.vx, fx);
       fy = fma(Pack(-c.settle_drag), self.vy, fy);
     }
