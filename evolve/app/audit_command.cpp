@@ -103,6 +103,8 @@ void print_json(const RunAudit& audited, const RunReader& run, const Experiment&
                          {"growth", summary.growth},
                          {"spread", summary.spread},
                          {"worst_spread", summary.worst_spread},
+                         {"disturbed_starts", summary.disturbed_starts},
+                         {"disturbed_failed", summary.disturbed_failed},
                          {"disturbed_spread", summary.disturbed_spread},
                          {"worst_disturbed_spread", summary.worst_disturbed_spread},
                          {"luck", json_of(summary.luck)}};
@@ -211,6 +213,10 @@ void print_summary(const RunAudit& audited, const Experiment& experiment) {
           name, 100 * trial.disturbed_spread, 100 * trial.worst_disturbed_spread,
           trial.luck.bias < 0 ? fmt::format("{:.2g} % short", -100 * trial.luck.bias)
                               : fmt::format("{:.2g} % ahead", 100 * trial.luck.bias));
+      if (trial.disturbed_failed > 0) {
+        fmt::print("{}: {} of {} starts 1e-3 d away end in a failure\n", name,
+                   trial.disturbed_failed, trial.disturbed_starts);
+      }
     }
   }
   fmt::print("order of the champions: Kendall's tau of recorded and reference eq 6 {:.3f}\n",

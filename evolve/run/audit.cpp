@@ -115,6 +115,8 @@ TrialSummary summary_of(const std::vector<ChampionAudit>& champions, std::size_t
     if (core::is_failure(audited.reference.status)) ++summary.reference_failed;
     if (audited.nearby.starts == 0) continue;
     ++summary.nearby;
+    summary.disturbed_starts += audited.disturbed.starts;
+    summary.disturbed_failed += audited.disturbed.failed;
     growth.push_back(audited.nearby.growth);
     if (audited.nearby.parted) {
       ++summary.unpredictable;

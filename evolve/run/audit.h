@@ -70,6 +70,8 @@ struct TrialSummary {
   double worst_spread = 0;
   double disturbed_spread = 0;  ///< the same two for NearbyStarts by options.disturbance
   double worst_disturbed_spread = 0;
+  int disturbed_starts = 0;
+  int disturbed_failed = 0;  ///< of them, ended in a failure; in no other number here
   DeviationRange luck;  ///< of the replay from the mean of the disturbed starts: bias above 0 if
                         ///< the search picked bodies for how they happened to start
 };

@@ -167,6 +167,8 @@ TEST_F(Audit, JsonHoldsALinePerChampionAndTrialAndOneForTheRun) {
   EXPECT_EQ(lines[0].at("reference_distance"), audited.champions[0].trials[0].reference.distance);
   EXPECT_EQ(lines.back().at("deviation").at("worst"), audited.recorded.worst);
   EXPECT_EQ(lines.back().at("other_bits"), 0);
+  EXPECT_EQ(lines.back().at("trials").at(1).at("nearby").at("disturbed_starts"),
+            4 * audited.trials[1].nearby);
 }
 
 TEST_F(Audit, TableEndsWithHowFarToTrust) {
