@@ -89,8 +89,7 @@ core::Scene plain(core::Scene scene) {
 double water_step_flop(const core::Body& body) {
   const auto edges = static_cast<double>(core::outline_of(body.triangles).size());
   const double nodes = body.node_count();
-  // Around an inner node the first neighbour comes twice (edges: as many outline nodes).
-  const double slots = 2.0 * static_cast<double>(body.springs.size()) + (nodes - edges);
+  const double slots = 2.0 * static_cast<double>(body.springs.size());
   return 54 * slots + 34 * 2 * edges + 33 * nodes;
 }
 

@@ -15,8 +15,8 @@ namespace metamorph::bench {
 ///
 /// What a part of the arithmetic costs is seen by leaving it out (`parts`).
 ///
-/// A Fetch gives packs of nodes, NodePack own(int place), neighbour(int slot_place),
-/// edge(int edge_place), and takes the new state, put(int place, NodePack).
+/// A Fetch gives packs of nodes, NodePack own(int place), before(int place), neighbour(int
+/// slot_place), edge(int edge_place), and takes the new state, put(int place, NodePack).
 enum class Parts { all, without_roots, without_oscillation };
 
 template <class T, Parts parts, class Fetch>
@@ -40,6 +40,11 @@ inline void step_rings(const kernels::BodyView<T>& body, const kernels::StepCoef
       own = fma(amplitude, oscillation(body.node_oscillator, place, n), one);
     }
     Pack before_dx = zero, before_dy = zero;
+    if (body.ring_closed[g] != 0) {
+      const kernels::NodePack<T> before = fetch.before(place);
+      before_dx = before.x - self.x;
+      before_dy = before.y - self.y;
+    }
     for (int k = 0; k < body.ring_size[g]; ++k) {
       const int slot = (body.ring_begin[g] + k) * width;
       const kernels::NodePack<T> other = fetch.neighbour(slot);
@@ -148,11 +153,13 @@ class HardwareGather {
       }
       return list;
     };
+    before_ = places(body.before, extent.nodes);
     neighbour_ = places(body.neighbour, extent.slots);
     edge_other_ = places(body.edge_other, extent.edges);
   }
 
   kernels::NodePack<T> own(int place) const { return now_.load(place); }
+  kernels::NodePack<T> before(int place) const { return at(before_.data() + place); }
   kernels::NodePack<T> neighbour(int slot) const { return at(neighbour_.data() + slot); }
   kernels::NodePack<T> edge(int edge) const { return at(edge_other_.data() + edge); }
   void put(int place, const kernels::NodePack<T>& pack) { next_.store(place, pack); }
@@ -192,7 +199,7 @@ class HardwareGather {
   }
 
   StateArrays<T> now_, next_;
-  core::Aligned<int> neighbour_, edge_other_;
+  core::Aligned<int> before_, neighbour_, edge_other_;
 };
 
 /// No gather at all: every slot has its neighbour's state, as it was at the start, at its own
@@ -202,13 +209,18 @@ template <class T>
 class Contiguous {
  public:
   explicit Contiguous(const kernels::BodyView<T>& body)
-      : state_(body, Extent<T>(body).nodes), neighbour_(body, 0), edge_other_(body, 0) {
+      : state_(body, Extent<T>(body).nodes),
+        before_(body, 0),
+        neighbour_(body, 0),
+        edge_other_(body, 0) {
     const Extent<T> extent(body);
+    before_ = copies(body, body.before, extent.nodes);
     neighbour_ = copies(body, body.neighbour, extent.slots);
     edge_other_ = copies(body, body.edge_other, extent.edges);
   }
 
   kernels::NodePack<T> own(int place) const { return state_.load(place); }
+  kernels::NodePack<T> before(int place) const { return before_.load(place); }
   kernels::NodePack<T> neighbour(int slot) const { return neighbour_.load(slot); }
   kernels::NodePack<T> edge(int edge) const { return edge_other_.load(edge); }
   void put(int place, const kernels::NodePack<T>& pack) { state_.store(place, pack); }
@@ -230,7 +242,7 @@ class Contiguous {
     return copy;
   }
 
-  StateArrays<T> state_, neighbour_, edge_other_;
+  StateArrays<T> state_, before_, neighbour_, edge_other_;
 };
 
 /// The library's own fetch, in this file's copy of the step: must take the library's time.
@@ -240,6 +252,9 @@ class Records {
   explicit Records(const kernels::BodyView<T>& body) : body_(body) {}
 
   kernels::NodePack<T> own(int place) const { return kernels::load(body_.now + place); }
+  kernels::NodePack<T> before(int place) const {
+    return kernels::gather(body_.now, body_.before + place);
+  }
   kernels::NodePack<T> neighbour(int slot) const {
     return kernels::gather(body_.now, body_.neighbour + slot);
   }
