@@ -36,8 +36,7 @@ inline Lanes<T> sine(typename LaneTypes<T>::Mask phase) {
     p = fma(z, p, Lanes<T>(T(4.058712126416736)));
     p = fma(z, p, Lanes<T>(T(-4.934802200544679)));
   }
-  const Lanes<T> magnitude = fma(z, p, Lanes<T>(T(1)));
-  return select(u < Lanes<T>(T(0)), -magnitude, magnitude);
+  return sign_flipped(fma(z, p, Lanes<T>(T(1))), u);
 }
 
 /// The oscillation sin(2 pi t / T + phi) of eq 3 at step n for the lanes at `base`.

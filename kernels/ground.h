@@ -24,8 +24,7 @@ inline Lanes<T> ground_normal(Lanes<T> y, Lanes<T> vy, const GroundCoefficients<
 template <class T>
 inline Lanes<T> after_friction(Lanes<T> v, Lanes<T> largest_change) {
   const Lanes<T> zero(T(0));
-  const Lanes<T> left = max(abs(v) - largest_change, zero);
-  return select(v < zero, -left, left);
+  return sign_flipped(max(abs(v) - largest_change, zero), v);
 }
 
 }  // namespace metamorph::kernels

@@ -80,18 +80,43 @@ template <class T>
 inline Lanes<T> select(LaneMask<T> mask, Lanes<T> yes, Lanes<T> no) {
   return mask.v ? yes.v : no.v;
 }
-/// The second argument where either is not a number.
+/// The second argument where either is not a number, as the instruction has it.
 template <class T>
 inline Lanes<T> min(Lanes<T> a, Lanes<T> b) {
+#if defined(__AVX512F__)
+  if constexpr (sizeof(T) == 4) return Lanes<T>(_mm512_maskz_min_ps(__mmask16(-1), a.v, b.v));
+  if constexpr (sizeof(T) == 8) return Lanes<T>(_mm512_maskz_min_pd(__mmask8(-1), a.v, b.v));
+#else
   return a.v < b.v ? a.v : b.v;
+#endif
 }
 template <class T>
 inline Lanes<T> max(Lanes<T> a, Lanes<T> b) {
+#if defined(__AVX512F__)
+  if constexpr (sizeof(T) == 4) return Lanes<T>(_mm512_maskz_max_ps(__mmask16(-1), a.v, b.v));
+  if constexpr (sizeof(T) == 8) return Lanes<T>(_mm512_maskz_max_pd(__mmask8(-1), a.v, b.v));
+#else
   return a.v > b.v ? a.v : b.v;
+#endif
 }
+
+/// The sign bit alone.
+template <class T>
+inline constexpr LaneInt<T> sign_bit =
+    static_cast<LaneInt<T>>(LaneInt<T>{1} << (8 * sizeof(T) - 1));
+
 template <class T>
 inline Lanes<T> abs(Lanes<T> a) {
-  return max(a, -a);
+  using Bits = typename LaneTypes<T>::Mask;
+  return Lanes<T>(
+      reinterpret_cast<typename Lanes<T>::Vector>(reinterpret_cast<Bits>(a.v) & ~sign_bit<T>));
+}
+/// a, with its sign changed where b is negative.
+template <class T>
+inline Lanes<T> sign_flipped(Lanes<T> a, Lanes<T> b) {
+  using Bits = typename LaneTypes<T>::Mask;
+  return Lanes<T>(reinterpret_cast<typename Lanes<T>::Vector>(
+      reinterpret_cast<Bits>(a.v) ^ (reinterpret_cast<Bits>(b.v) & sign_bit<T>)));
 }
 
 /// Bit l is lane l's truth.
