@@ -17,7 +17,6 @@ int row(core::Index node, int axis) { return 2 * node + axis; }
 LinearlyImplicitEuler::LinearlyImplicitEuler(const core::Body& body, const core::Scene& scene)
     : body_(body),
       scene_(scene),
-      settling_(scene.ground),
       fx_(body.x.size()),
       fy_(body.x.size()),
       normal_(body.x.size()),
@@ -25,7 +24,7 @@ LinearlyImplicitEuler::LinearlyImplicitEuler(const core::Body& body, const core:
       stiffness_matrix_(2 * body.node_count(), 2 * body.node_count()) {}
 
 void LinearlyImplicitEuler::assemble(const core::ReferenceSystem& system, double h) {
-  const double damping = settling_ ? scene_.settle_damping : scene_.damping;
+  const double damping = scene_.damping;
   left_.clear();
   stiffness_.clear();
   const auto add = [&](int r, int c, double k, double d) {
@@ -66,10 +65,8 @@ void LinearlyImplicitEuler::assemble(const core::ReferenceSystem& system, double
   for (core::Index i = 0; i < body_.node_count(); ++i) {
     const auto a = static_cast<std::size_t>(i);
     const bool touches = scene_.ground && normal_[a] > 0;
-    const double drag = settling_ ? scene_.settle_drag : 0;
-    add(row(i, 0), row(i, 0), 0, drag);
     add(row(i, 1), row(i, 1), touches ? scene_.ground_stiffness : 0,
-        drag + (touches ? scene_.ground_damping : 0));
+        touches ? scene_.ground_damping : 0);
     left_.emplace_back(row(i, 0), row(i, 0), system.mass);
     left_.emplace_back(row(i, 1), row(i, 1), system.mass);
   }

@@ -13,11 +13,11 @@ namespace metamorph::bench {
 /// Linearly implicit Euler, for comparison (Baraff & Witkin 1998): (m + h C + h^2 K) dv =
 /// h (f - h K v), one sparse factorisation per step. K and C hold springs, dampers, pressure and
 /// the ground, K without its indefinite geometric part (so it can be factorised by Cholesky; a
-/// method of first order stays one with any K). Friction is an impulse, as everywhere.
+/// method of first order stays one with any K). Friction is an impulse, as everywhere. For runs,
+/// not for settling.
 class LinearlyImplicitEuler {
  public:
   LinearlyImplicitEuler(const core::Body& body, const core::Scene& scene);
-  void start_actuation() { settling_ = false; }
   void step(core::ReferenceSystem& system, double t, double h);
 
  private:
@@ -27,7 +27,6 @@ class LinearlyImplicitEuler {
 
   core::Body body_;
   core::Scene scene_;
-  bool settling_;
   bool analysed_ = false;
   std::vector<double> fx_, fy_, normal_;
   std::vector<Eigen::Triplet<double>> left_, stiffness_;

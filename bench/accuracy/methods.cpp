@@ -9,6 +9,7 @@
 #include "bench/accuracy/linearly_implicit.h"
 #include "bench/accuracy/xpbd.h"
 #include "core/locomotion.h"
+#include "core/random.h"
 #include "core/reference_simulation.h"
 
 namespace metamorph::bench {
@@ -62,17 +63,16 @@ Method plain(const std::string& name, core::ReferenceMethod kind, int evaluation
           }};
 }
 
-/// A method that exists only here, made anew for every body.
+/// A method that exists only here, made anew for every body. Settled as everybody is.
 template <class Stepper>
 Method comparison(const std::string& name) {
-  return {
-      name, [](const core::Body& body, const core::Scene& scene) {
-        Stepper stepper(body, scene);
-        return evaluate(
-            body, scene, scene.step, 1,
-            [&](core::ReferenceSystem& system, double t, double h) { stepper.step(system, t, h); },
-            [&](core::ReferenceSystem&) { stepper.start_actuation(); });
-      }};
+  return {name, [](const core::Body& body, const core::Scene& scene) {
+            Stepper stepper(body, scene);
+            return evaluate(body, scene, core::ReferenceMethod::symplectic_euler,
+                            [&](core::ReferenceSystem& system, double t, double h) {
+                              stepper.step(system, t, h);
+                            });
+          }};
 }
 
 }  // namespace
@@ -100,6 +100,20 @@ const Method& method(const std::string& name) {
   for (const Method& candidate : all_methods())
     if (candidate.name == name) return candidate;
   throw std::out_of_range("no method " + name);
+}
+
+double travel(const core::Scene& scene, const core::Outcome& outcome) {
+  if (core::is_failure(outcome.status)) return 0;
+  return scene.slope_degrees != 0 ? outcome.mean_position[0] : outcome.distance;
+}
+
+core::Body moved(core::Body body, double size) {
+  core::RandomStream random(core::Purpose::test, 1, 0, 0);
+  for (std::size_t i = 0; i < body.x.size(); ++i) {
+    body.x[i] += size * (2 * random.uniform() - 1);
+    body.y[i] += size * (2 * random.uniform() - 1);
+  }
+  return body;
 }
 
 double thread_seconds() {

@@ -32,6 +32,14 @@ const std::vector<Method>& all_methods();
 /// One of them by name; std::out_of_range if there is none.
 const Method& method(const std::string& name);
 
+/// What bodies are compared by, d: the distance, but on the slope the displacement with its sign
+/// (the distance of all that slide down is 0). 0 after a failure.
+double travel(const core::Scene& scene, const core::Outcome& outcome);
+
+/// The body with every coordinate of its nodes moved by up to `size`, d; rest lengths and areas are
+/// kept.
+core::Body moved(core::Body body, double size);
+
 /// Processor time of the calling thread, seconds.
 double thread_seconds();
 

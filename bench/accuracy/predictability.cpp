@@ -6,7 +6,6 @@
 #include "bench/accuracy/parallel.h"
 #include "bench/accuracy/studies.h"
 #include "core/locomotion.h"
-#include "core/random.h"
 
 namespace metamorph::bench {
 namespace {
@@ -34,16 +33,6 @@ Film film(const core::Body& body, const core::Scene& scene) {
   return result;
 }
 
-/// The body with its nodes moved a little; its rest lengths and areas are kept.
-core::Body moved(core::Body body) {
-  core::RandomStream random(core::Purpose::test, 1, 0, 0);
-  for (std::size_t i = 0; i < body.x.size(); ++i) {
-    body.x[i] += perturbation * (2 * random.uniform() - 1);
-    body.y[i] += perturbation * (2 * random.uniform() - 1);
-  }
-  return body;
-}
-
 }  // namespace
 
 void predictability(std::span<const Specimen> specimens, std::ostream& out) {
@@ -52,7 +41,7 @@ void predictability(std::span<const Specimen> specimens, std::ostream& out) {
     scene.run_steps *= 2;
     const auto rows = in_parallel(specimens.size(), [&](std::size_t i) {
       const Film one = film(specimens[i].body, scene);
-      const Film two = film(moved(specimens[i].body), scene);
+      const Film two = film(moved(specimens[i].body, perturbation), scene);
       std::string text;
       for (std::size_t n = 0; n < std::min(one.time.size(), two.time.size()); ++n)
         text +=

@@ -51,14 +51,11 @@ std::vector<Specimen> grow_random(std::size_t count) {
 
 }  // namespace
 
-std::vector<Specimen> grow_specimens(const std::filesystem::path& genomes, std::size_t random) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(genomes))
-    if (entry.path().extension() == ".json") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
+std::vector<Specimen> grow_specimens(const std::vector<std::filesystem::path>& genomes,
+                                     std::size_t random) {
   std::vector<evolve::Genome> evolved;
   std::vector<std::string> names;
-  for (const auto& file : files) {
+  for (const auto& file : genomes) {
     evolved.push_back(evolve::read_genome(file));
     names.push_back(file.stem().string());
   }

@@ -15,8 +15,9 @@ struct Specimen {
   core::Body body;
 };
 
-/// Bodies grown from genomes: larva (600 steps) and adult (1200) of every genome file in `genomes`,
-/// then `random` bodies of random genomes, evenly spread over all sizes that occur.
-std::vector<Specimen> grow_specimens(const std::filesystem::path& genomes, std::size_t random);
+/// Bodies grown from genomes: larva (600 steps) and adult (1200) of every genome file, then
+/// `random` bodies of random genomes, evenly spread over all sizes that occur.
+std::vector<Specimen> grow_specimens(const std::vector<std::filesystem::path>& genomes,
+                                     std::size_t random);
 
 }  // namespace metamorph::bench

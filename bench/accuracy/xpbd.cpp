@@ -12,7 +12,7 @@ namespace {
 namespace ref = kernels::reference;
 
 core::Scene without_body_forces(core::Scene scene) {
-  scene.stiffness = scene.damping = scene.settle_damping = scene.pressure = 0;
+  scene.stiffness = scene.damping = scene.pressure = 0;
   return scene;
 }
 
@@ -21,23 +21,15 @@ core::Scene without_body_forces(core::Scene scene) {
 Xpbd::Xpbd(const core::Body& body, const core::Scene& scene)
     : body_(body),
       scene_(scene),
-      settling_(scene.ground),
       outside_(body, without_body_forces(scene)),
       length_(body.rest_length),
       fx_(body.x.size()),
       fy_(body.x.size()),
-      normal_(body.x.size()) {
-  outside_.set_settling(settling_);
-}
-
-void Xpbd::start_actuation() {
-  settling_ = false;
-  outside_.set_settling(false);
-}
+      normal_(body.x.size()) {}
 
 void Xpbd::step(core::ReferenceSystem& system, double t, double h) {
   const double amplitude =
-      settling_ ? 0 : scene_.amplitude * ref::ramp(t + h, scene_.ramp_steps * core::paper_step);
+      scene_.amplitude * ref::ramp(t + h, scene_.ramp_steps * core::paper_step);
   ref::actuate(body_.springs, body_.rest_length, {body_.period, body_.phase}, amplitude, t + h,
                length_);
   outside_.forces(system.nodes(), t, {fx_, fy_}, normal_);
@@ -60,8 +52,7 @@ void Xpbd::step(core::ReferenceSystem& system, double t, double h) {
 
 void Xpbd::project_springs(core::ReferenceSystem& system, double h) {
   const double compliance = 1 / (scene_.stiffness * h * h);
-  const double gamma =
-      (settling_ ? scene_.settle_damping : scene_.damping) / (scene_.stiffness * h);
+  const double gamma = scene_.damping / (scene_.stiffness * h);
   for (std::size_t s = 0; s < body_.springs.size(); ++s) {
     const auto [i, j] = ref::places(body_.springs[s]);
     const double dx = system.x[j] - system.x[i], dy = system.y[j] - system.y[i];

@@ -11,11 +11,10 @@ namespace metamorph::bench {
 /// XPBD with small steps (Macklin et al. 2016, 2019), for comparison: one sweep over the springs
 /// (compliance 1/k, Rayleigh damping c) and the triangles per step. Pressure is the constraint
 /// sqrt(2 U) of its exact energy. Everything else acts as a force before the sweep; friction is an
-/// impulse on the velocity after it.
+/// impulse on the velocity after it. For runs, not for settling.
 class Xpbd {
  public:
   Xpbd(const core::Body& body, const core::Scene& scene);
-  void start_actuation();
   void step(core::ReferenceSystem& system, double t, double h);
 
  private:
@@ -24,7 +23,6 @@ class Xpbd {
 
   core::Body body_;
   core::Scene scene_;
-  bool settling_;
   core::ReferenceSystem outside_;  ///< the same scene without springs, dampers and pressure
   std::vector<double> length_, fx_, fy_, normal_, x_, y_;
 };
