@@ -187,7 +187,9 @@ double kendall_tau(const std::vector<double>& a, const std::vector<double>& b) {
 int confirmed_within(const RunAudit& audited, double share, bool replay) {
   return static_cast<int>(std::count_if(
       audited.champions.begin(), audited.champions.end(), [&](const ChampionAudit& champion) {
-        return std::abs(replay ? champion.replay_deviation : champion.deviation) <= share;
+        // A replay that failed has no reference to be confirmed by.
+        return (replay ? champion.replay_eq6 : champion.champion.eq6) > 0 &&
+               std::abs(replay ? champion.replay_deviation : champion.deviation) <= share;
       }));
 }
 
