@@ -94,14 +94,20 @@ void CollisionList<T>::find_close_at_rest() {
 }
 
 template <class T>
-bool CollisionList<T>::stale(const kernels::NodeRecord<T>* records, const T* weight) const {
+bool CollisionList<T>::stale(const kernels::NodeRecord<T>* records, const T* weight) {
   if (!valid_) return true;
   if (nodes_.empty()) return false;
   // A rigid motion brings no two points closer: only what is left of the motion without it counts,
-  // so that a body may swim and roll as far as it likes.
-  const auto motion = kernels::fit_rigid_motion(records, x_.data(), y_.data(), weight, groups_);
-  const T moved2 = kernels::farthest_move2(records, x_.data(), y_.data(), weight, groups_, motion);
-  return !(moved2 < skin_ * skin_ / 4);
+  // so that a body may swim and roll as far as it likes. Any rigid motion will do; it is fitted
+  // anew when the last one no longer does.
+  const auto too_far = [&] {
+    const T moved2 =
+        kernels::farthest_move2(records, x_.data(), y_.data(), weight, groups_, motion_);
+    return !(moved2 < skin_ * skin_ / 4);
+  };
+  if (!too_far()) return false;
+  motion_ = kernels::fit_rigid_motion(records, x_.data(), y_.data(), weight, groups_);
+  return too_far();
 }
 
 template <class T>
@@ -131,6 +137,7 @@ void CollisionList<T>::renew(const kernels::NodeRecord<T>* records) {
   }
   while (count_ % width != 0) add(0, 0, 0, T(0));
   valid_ = true;
+  motion_ = {T(0), T(0), T(0), T(0), T(1), T(0)};
 }
 
 template <class T>

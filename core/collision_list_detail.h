@@ -32,7 +32,7 @@ class CollisionList {
     Index a, b;                   ///< nodes of the body
   };
 
-  bool stale(const kernels::NodeRecord<T>* records, const T* weight) const;
+  bool stale(const kernels::NodeRecord<T>* records, const T* weight);
   void renew(const kernels::NodeRecord<T>* records);
   void find_close_at_rest();
   T distance_at_rest(std::size_t node, const Edge& edge) const;
@@ -41,7 +41,8 @@ class CollisionList {
   const Body* body_ = nullptr;
   T gap_ = 0, skin_ = 0;
   bool valid_ = false;
-  int groups_ = 0;  ///< lane groups that hold outline nodes
+  kernels::RigidMotion<T> motion_{};  ///< since renewal, as last fitted
+  int groups_ = 0;                    ///< lane groups that hold outline nodes
   std::span<const OutlineNode> nodes_;
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> allowed_;  ///< [edges * groups] lanes that may collide with the edge
