@@ -172,8 +172,5 @@ BENCHMARK(novelty)->Arg(5000)->Arg(100000)->Unit(benchmark::kMillisecond);
 }  // namespace metamorph::bench
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  metamorph::bench::add_generations();
-  benchmark::RunSpecifiedBenchmarks();
+  return metamorph::bench::run(argc, argv, metamorph::bench::add_generations);
 }

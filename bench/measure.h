@@ -32,4 +32,13 @@ inline void report_flop(benchmark::State& state, double flop) {
   state.counters["flop_per_s"] = Counter(flop, Counter::kIsIterationInvariantRate);
 }
 
+/// What main() of a program does that adds its benchmarks by `add`.
+inline int run(int argc, char** argv, void (*add)()) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  add();
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
+
 }  // namespace metamorph::bench

@@ -97,8 +97,5 @@ void add_all() {
 }  // namespace metamorph::bench
 
 int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  metamorph::bench::add_all();
-  benchmark::RunSpecifiedBenchmarks();
+  return metamorph::bench::run(argc, argv, metamorph::bench::add_all);
 }
