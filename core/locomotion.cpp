@@ -28,7 +28,12 @@ Outcome before_running(const LocomotionTask& task, Method method) {
   }
   if (!step_is_stable(body, *task.scene, method)) {
     outcome.status = Status::step_too_large;
-    outcome.failed_value = task.scene->step;
+    const Scene& scene = *task.scene;
+    const double run_limit = step_limit(body, scene, scene.damping, method).sharp;
+    outcome.failed_value =
+        scene.step > run_limit
+            ? run_limit
+            : step_limit(body, scene, scene.settle_damping, Method::symplectic_euler).sharp;
     outcome.failed_step = 0;
   }
   return outcome;

@@ -28,7 +28,7 @@ struct Outcome {
   // Of a failure: where it showed.
   std::int64_t failed_step = -1;  ///< integrator step at which it was detected
   int failed_index = -1;          ///< node or triangle, by status
-  double failed_value = 0;        ///< the offending speed, area ratio, ...
+  double failed_value = 0;        ///< the offending speed or area ratio; the largest stable step
 };
 
 /// An outcome with what the body alone decides: counts and spring lengths.

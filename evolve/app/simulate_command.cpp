@@ -101,7 +101,10 @@ void print_table(const std::vector<Animat>& animats, const std::vector<core::Out
         animats[i].name, width, core::name(o.status), o.distance, o.mean_position[0],
         o.mean_position[1], o.cells, o.springs, o.triangles, o.steps, o.settle_time,
         o.min_area_ratio, o.max_speed);
-    if (core::is_failure(o.status)) {
+    if (o.status == core::Status::step_too_large) {
+      fmt::print("{:<{}}  the largest stable step for this body is {:.3g}\n", "", width,
+                 o.failed_value);
+    } else if (core::is_failure(o.status)) {
       fmt::print("{:<{}}  failed at step {}, index {}, value {}\n", "", width, o.failed_step,
                  o.failed_index, o.failed_value);
     }

@@ -181,6 +181,10 @@ TEST_P(FailureIn, ABatchIsNamedAndDisturbsNobody) {
     EXPECT_GE(outcome.failed_index, 0);
     EXPECT_EQ(outcome.failed_step, outcome.steps);
   }
+  if (outcome.status == Status::step_too_large) {
+    EXPECT_GT(outcome.failed_value, 0);
+    EXPECT_LT(outcome.failed_value, scene.step);
+  }
   if (outcome.status == Status::inverted) {
     EXPECT_LE(outcome.failed_value, 0);
   }
