@@ -26,8 +26,8 @@ while read -r option value; do
 done <<END
 --out $out
 --seed $number
---population 60
---generations 30
+--population 100
+--generations 80
 END
 "$metamorph" evolve evolve/experiments/water-to-land-simple.toml "${defaults[@]}" "$@" || exit
 [ -d "$out" ] || exit 0
@@ -38,6 +38,6 @@ say "What to do next:"
 say "  $metamorph info $out"
 say "  $metamorph render $out --kind motion --trial adult --out $out/motion.png"
 say "  $metamorph render $out --kind development --out $out/development.png"
-say "  $metamorph evolve --resume $out --generations 100"
+say "  $metamorph evolve --resume $out --generations 200"
 say "  bash evolve/run.sh        evolves again, with another seed"
 say "  $metamorph --help         lists all commands"
