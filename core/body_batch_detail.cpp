@@ -93,7 +93,6 @@ BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, in
     total.slots += at(extent.slots);
     total.edge_groups += at(extent.outline_groups);
     total.edge_slots += at(extent.edge_slots);
-    total.outline_nodes += at(extent.outline_nodes);
     total.outline_edges += at(extent.outline_edges);
   }
   offset_.back() = total;
@@ -123,7 +122,6 @@ BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, in
   extra_fx_.assign(lanes, T(0));
   extra_fy_.assign(lanes, T(0));
   node_of_lane_.assign(lanes, -1);
-  outline_nodes_.resize(total.outline_nodes);
   outline_edges_.resize(total.outline_edges);
 
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
@@ -217,10 +215,6 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
     edge_slot += edge_size_[group];
   }
 
-  for (int l = 0; l < extent.outline_nodes; ++l) {
-    outline_nodes_[offset.outline_nodes + at(l)] = {static_cast<std::uint32_t>(l),
-                                                    plan.order[at(l)]};
-  }
   const auto outline = outline_of(body.triangles);
   for (std::size_t e = 0; e < outline.size(); ++e) {
     outline_edges_[offset.outline_edges + e] = {plan.lane[at(outline[e][0])],
@@ -267,8 +261,8 @@ std::span<const Index> BodyBatch<T>::node_of_lane(std::size_t i) const {
 }
 
 template <class T>
-std::span<const OutlineNode> BodyBatch<T>::outline_nodes(std::size_t i) const {
-  return {outline_nodes_.data() + offset_[i].outline_nodes, at(extent_[i].outline_nodes)};
+std::span<const Index> BodyBatch<T>::outline_nodes(std::size_t i) const {
+  return node_of_lane(i).first(at(extent_[i].outline_nodes));
 }
 
 template <class T>

@@ -29,12 +29,6 @@ struct AlignedAllocator {
 template <class T>
 using Aligned = std::vector<T, AlignedAllocator<T>>;
 
-/// An outline node of a packed body, with what self-collision needs of it.
-struct OutlineNode {
-  std::uint32_t lane;
-  Index node;  ///< in the Body
-};
-
 /// The bodies of many tasks as structure-of-arrays, ready for the kernels: every array holds all
 /// bodies one behind the other, each padded to whole lane groups. Constants of the bodies and their
 /// state; what belongs to the animat's run in time is in its runner.
@@ -53,8 +47,9 @@ class BodyBatch {
   /// lane -> node of the Body, for body `i`; -1 in idle lanes.
   std::span<const Index> node_of_lane(std::size_t i) const;
 
-  /// Outline nodes and outline edges (lanes of both ends) of body `i`.
-  std::span<const OutlineNode> outline_nodes(std::size_t i) const;
+  /// Outline nodes (they fill the first lanes, in order) and outline edges (lanes of both ends) of
+  /// body `i`.
+  std::span<const Index> outline_nodes(std::size_t i) const;
   std::span<const std::array<std::uint32_t, 2>> outline_edges(std::size_t i) const;
 
   std::span<T> extra_fx(std::size_t i);
@@ -65,7 +60,7 @@ class BodyBatch {
     int nodes, groups, outline_groups, slots, edge_slots, outline_nodes, outline_edges;
   };
   struct Offset {
-    std::size_t groups, slots, edge_groups, edge_slots, outline_nodes, outline_edges;
+    std::size_t groups, slots, edge_groups, edge_slots, outline_edges;
   };
   struct Plan;
 
@@ -82,7 +77,6 @@ class BodyBatch {
   Aligned<kernels::NodeRecord<T>> records_a_, records_b_;
   Aligned<T> vx_, vy_, extra_fx_, extra_fy_;
   std::vector<Index> node_of_lane_;
-  std::vector<OutlineNode> outline_nodes_;
   std::vector<std::array<std::uint32_t, 2>> outline_edges_;
 };
 

@@ -14,8 +14,7 @@ constexpr double skin = 1.0;
 }  // namespace
 
 template <class T>
-void CollisionList<T>::reset(const Body& body, const Scene& scene,
-                             std::span<const OutlineNode> nodes,
+void CollisionList<T>::reset(const Body& body, const Scene& scene, std::span<const Index> nodes,
                              std::span<const std::array<std::uint32_t, 2>> edges) {
   constexpr auto width = static_cast<std::size_t>(kernels::Lanes<T>::width);
   body_ = &body;
@@ -40,7 +39,7 @@ void CollisionList<T>::reset(const Body& body, const Scene& scene,
   // Outline nodes fill the first lanes, in order.
   edges_.clear();
   for (const auto& [first, second] : edges) {
-    edges_.push_back({first, second, nodes[first].node, nodes[second].node});
+    edges_.push_back({first, second, nodes[first], nodes[second]});
   }
 
   std::vector<std::vector<std::size_t>> incident(nodes.size());
@@ -78,8 +77,8 @@ void CollisionList<T>::find_close_at_rest() {
   constexpr auto width = static_cast<std::size_t>(kernels::Lanes<T>::width);
   const auto groups = static_cast<std::size_t>(groups_);
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
-    x_[n] = static_cast<T>(body_->x[static_cast<std::size_t>(nodes_[n].node)]);
-    y_[n] = static_cast<T>(body_->y[static_cast<std::size_t>(nodes_[n].node)]);
+    x_[n] = static_cast<T>(body_->x[static_cast<std::size_t>(nodes_[n])]);
+    y_[n] = static_cast<T>(body_->y[static_cast<std::size_t>(nodes_[n])]);
   }
   close_at_rest_.assign(edges_.size() * groups, 0);
   for (std::size_t e = 0; e < edges_.size(); ++e) {
@@ -143,7 +142,7 @@ void CollisionList<T>::renew(const kernels::NodeRecord<T>* records) {
 template <class T>
 T CollisionList<T>::distance_at_rest(std::size_t node, const Edge& edge) const {
   const auto at = [](Index i) { return static_cast<std::size_t>(i); };
-  const std::size_t i = at(nodes_[node].node), j = at(edge.a), k = at(edge.b);
+  const std::size_t i = at(nodes_[node]), j = at(edge.a), k = at(edge.b);
   using Pack = kernels::Lanes<double>;
   const auto rest =
       kernels::nearest_on_segment<double>(Pack(body_->x[i]), Pack(body_->y[i]), Pack(body_->x[j]),

@@ -19,7 +19,7 @@ template <class T>
 class CollisionList {
  public:
   /// Prepares for one body. Storage grows to the largest body met and is kept.
-  void reset(const Body& body, const Scene& scene, std::span<const OutlineNode> nodes,
+  void reset(const Body& body, const Scene& scene, std::span<const Index> nodes,
              std::span<const std::array<std::uint32_t, 2>> edges);
 
   /// The pairs to test at the records' positions; renews the list if it is stale. `weight`: 1, or 0
@@ -43,7 +43,7 @@ class CollisionList {
   bool valid_ = false;
   kernels::RigidMotion<T> motion_{};  ///< since renewal, as last fitted
   int groups_ = 0;                    ///< lane groups that hold outline nodes
-  std::span<const OutlineNode> nodes_;
+  std::span<const Index> nodes_;
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> allowed_;  ///< [edges * groups] lanes that may collide with the edge
   std::vector<std::uint32_t>

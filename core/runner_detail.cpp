@@ -55,8 +55,8 @@ void Runner<T>::run(std::size_t i, const LocomotionTask& task, Outcome& outcome,
   if (scene_->self_collision) {
     collisions_.reset(*body_, *scene_, batch_.outline_nodes(i), batch_.outline_edges(i));
   }
-  if (scene_->ground && !settle(task, outcome)) return;
-  actuate(task, outcome, every, observe);
+  if (scene_->ground && !settle(outcome)) return;
+  actuate(outcome, every, observe);
 }
 
 template <class T>
@@ -78,8 +78,8 @@ void Runner<T>::step(std::uint64_t n) {
 }
 
 template <class T>
-bool Runner<T>::settle(const LocomotionTask& task, Outcome& outcome) {
-  const Scene& scene = *task.scene;
+bool Runner<T>::settle(Outcome& outcome) {
+  const Scene& scene = *scene_;
   begin_settling();
   const std::int64_t quiet_needed = steps_of(scene.settle_quiet_steps, step_);
   const std::int64_t most = steps_of(scene.settle_max_steps, step_);
@@ -127,9 +127,9 @@ void Runner<T>::end_settling() {
 }
 
 template <class T>
-bool Runner<T>::actuate(const LocomotionTask& task, Outcome& outcome, int every,
+void Runner<T>::actuate(Outcome& outcome, int every,
                         const std::function<void(const Frame&)>& observe) {
-  const Scene& scene = *task.scene;
+  const Scene& scene = *scene_;
   const Mean start = mean_position();
   const std::int64_t count = steps_of(scene.run_steps, scene.step);
   const double ramp = scene.ramp_steps * paper_step;
@@ -141,13 +141,12 @@ bool Runner<T>::actuate(const LocomotionTask& task, Outcome& outcome, int every,
     coefficients_.amplitude = static_cast<T>(scene.amplitude * (t < ramp ? t / ramp : 1.0));
     step(static_cast<std::uint64_t>(n));
     outcome.steps = settled + n + 1;
-    if (((n + 1) % check_interval == 0 || n + 1 == count) && !sound(outcome)) return false;
+    if (((n + 1) % check_interval == 0 || n + 1 == count) && !sound(outcome)) return;
     if (observe && (n + 1) % every == 0) show(observe, n + 1);
   }
   const Mean end = mean_position();
   outcome.mean_position = {end.x - start.x, scene.ground ? end.y : end.y - start.y};
   outcome.distance = travelled(scene.distance, end.x - start.x, end.y - start.y);
-  return true;
 }
 
 /// Looks at what the steps have seen; fills the failure's fields and returns false if it is one.
@@ -156,13 +155,11 @@ bool Runner<T>::sound(Outcome& outcome) {
   const double speed = std::sqrt(static_cast<double>(largest(extremes_.largest_speed2)));
   const double largest_ratio = static_cast<double>(largest(extremes_.largest_ratio));
   const T smallest_ratio = -largest(-extremes_.smallest_ratio);
-  T finite = T(0);
-  for (int l = 0; l < kernels::Lanes<T>::width; ++l) finite += extremes_.not_finite[l];
   outcome.max_speed = std::max(outcome.max_speed, speed);
   if (largest_ratio > 0)
     outcome.min_area_ratio = std::min(outcome.min_area_ratio, 1 / largest_ratio);
 
-  if (!(finite == T(0)) || !std::isfinite(speed)) {
+  if (!(sum(extremes_.not_finite) == T(0)) || !std::isfinite(speed)) {
     outcome.status = Status::non_finite;
   } else if (smallest_ratio < 0) {
     outcome.status = Status::inverted;

@@ -26,9 +26,8 @@ class Runner {
     double x, y;
   };
 
-  bool settle(const LocomotionTask& task, Outcome& outcome);
-  bool actuate(const LocomotionTask& task, Outcome& outcome, int every,
-               const std::function<void(const Frame&)>& observe);
+  bool settle(Outcome& outcome);
+  void actuate(Outcome& outcome, int every, const std::function<void(const Frame&)>& observe);
   void begin_settling();
   void end_settling();
   void step(std::uint64_t n);

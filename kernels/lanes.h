@@ -46,7 +46,6 @@ template <class T>
 struct LaneMask {
   typename LaneTypes<T>::Mask v;
   friend LaneMask operator&(LaneMask a, LaneMask b) { return {a.v & b.v}; }
-  friend LaneMask operator|(LaneMask a, LaneMask b) { return {a.v | b.v}; }
 };
 
 template <class T>
@@ -144,6 +143,14 @@ template <class T>
 inline T largest(Lanes<T> pack) {
   T value = pack[0];
   for (int l = 1; l < Lanes<T>::width; ++l) value = pack[l] > value ? pack[l] : value;
+  return value;
+}
+
+/// The sum of the lanes, in order.
+template <class T>
+inline T sum(Lanes<T> pack) {
+  T value = T(0);
+  for (int l = 0; l < Lanes<T>::width; ++l) value += pack[l];
   return value;
 }
 

@@ -45,13 +45,6 @@ struct RigidMotion {
   T from_x, from_y, to_x, to_y, cosine, sine;
 };
 
-template <class T>
-inline T sum(Lanes<T> pack) {
-  T value = T(0);
-  for (int l = 0; l < Lanes<T>::width; ++l) value += pack[l];
-  return value;
-}
-
 /// The rigid motion that fits best how the nodes of `groups` lane groups have moved from (x, y).
 /// `weight` [groups * width] is 0 in idle lanes, else 1.
 template <class T>
