@@ -87,8 +87,8 @@ void add_opponents(const Body& body, const std::string& suffix, core::Precision 
   add("floor-without-roots/" + suffix, [body](benchmark::State& state) {
     opponent<RingOpponent<T, Contiguous, Parts::without_roots>>(state, body, false);
   });
-  add("floor-without-oscillation/" + suffix, [body](benchmark::State& state) {
-    opponent<RingOpponent<T, Contiguous, Parts::without_oscillation>>(state, body, false);
+  add("floor-own-periods/" + suffix, [body](benchmark::State& state) {
+    opponent<RingOpponent<T, Contiguous, Parts::own_periods>>(state, body, false);
   });
   add("lane-is-node-hardware-gathers/" + suffix, [body](benchmark::State& state) {
     opponent<RingOpponent<T, HardwareGather>>(state, body, true);

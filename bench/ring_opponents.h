@@ -13,11 +13,12 @@ namespace metamorph::bench {
 /// of kernels::step_body, everything else a template parameter, so that what differs between the
 /// opponents below is the fetch alone.
 ///
-/// What a part of the arithmetic costs is seen by leaving it out (`parts`).
+/// What a part of the arithmetic costs is seen by leaving it out, or by doing it for oscillators
+/// of periods of their own (`parts`).
 ///
 /// A Fetch gives packs of nodes, NodePack own(int place), before(int place), neighbour(int
 /// slot_place), edge(int edge_place), and takes the new state, put(int place, NodePack).
-enum class Parts { all, without_roots, without_oscillation };
+enum class Parts { all, without_roots, own_periods };
 
 template <class T, Parts parts, class Fetch>
 inline void step_rings(const kernels::BodyView<T>& body, const kernels::StepCoefficients<T>& c,
@@ -28,6 +29,7 @@ inline void step_rings(const kernels::BodyView<T>& body, const kernels::StepCoef
   const Pack zero(T(0)), one(T(1)), tiny(T(1e-12));
   const Pack stiffness(c.stiffness), damping(c.damping), half_pressure_coefficient(c.pressure / 2);
   const Pack amplitude(c.amplitude), h(c.step), extrapolate(c.extrapolate);
+  const Pack swing_sine(c.swing_sine), swing_cosine(c.swing_cosine);
   const kernels::DragCoefficients<T> drag{c.drag_normal, c.drag_tangential};
 
   kernels::StepExtremes<T> extremes = seen;
@@ -36,7 +38,7 @@ inline void step_rings(const kernels::BodyView<T>& body, const kernels::StepCoef
     const kernels::NodePack<T> self = fetch.own(place);
     Pack fx = zero, fy = zero;
     Pack own = one;
-    if constexpr (parts != Parts::without_oscillation) {
+    if constexpr (parts == Parts::own_periods) {
       own = fma(amplitude, oscillation(body.node_oscillator, place, n), one);
     }
     Pack before_dx = zero, before_dy = zero;
@@ -62,14 +64,17 @@ inline void step_rings(const kernels::BodyView<T>& body, const kernels::StepCoef
       extremes.largest_ratio = max(ratio, extremes.largest_ratio);
       extremes.smallest_ratio = min(ratio, extremes.smallest_ratio);
       Pack rest_length = Pack::load(body.rest_length + slot);
-      if constexpr (parts != Parts::without_oscillation) {
+      if constexpr (parts == Parts::own_periods) {
         rest_length *= fma(amplitude, oscillation(body.ring_oscillator, slot, n), own);
+      } else {
+        rest_length = fma(swing_sine, Pack::load(body.swing_sine + slot), rest_length);
+        rest_length = fma(swing_cosine, Pack::load(body.swing_cosine + slot), rest_length);
       }
       const Pack tension = kernels::spring_tension<T>(
           dx, dy, other.vx - self.vx, other.vy - self.vy, length, inverse_length, rest_length,
           stiffness, damping, Pack::load(body.spring + slot));
-      fx += fma(tension, dx, push * (before_dy - dy));
-      fy += fma(tension, dy, push * (dx - before_dx));
+      fx = fma(tension, dx, fma(push, before_dy - dy, fx));
+      fy = fma(tension, dy, fma(push, dx - before_dx, fy));
       before_dx = dx;
       before_dy = dy;
     }
@@ -286,7 +291,10 @@ class RingOpponent {
   }
 
   void step(double /*time*/, double amplitude) {
+    const kernels::Phasor swing = kernels::phasor(view_.period_advance * count_);
     coefficients_.amplitude = static_cast<T>(amplitude);
+    coefficients_.swing_sine = static_cast<T>(amplitude * swing.sine);
+    coefficients_.swing_cosine = static_cast<T>(amplitude * swing.cosine);
     step_rings<T, parts>(view_, coefficients_, count_++, seen_, fetch_);
     fetch_.end_step();
   }

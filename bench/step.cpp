@@ -64,6 +64,9 @@ void add_all() {
   add(scenes + "water/float", {disc}, water);
   add(scenes + "land/float", {disc}, land);
   add(scenes + "slope/float", {disc}, slope);
+  Body own_periods = disc;
+  own_periods.period.front() *= 2;
+  add(scenes + "water-own-periods/float", {own_periods}, water);
   add(scenes + "water/double", {disc}, water, Precision::float64);
   add(scenes + "land/double", {disc}, land, Precision::float64);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <numeric>
 
@@ -62,7 +63,7 @@ struct BodyBatch<T>::Plan {
 
 template <class T>
 BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, int threads)
-    : extent_(tasks.size()), offset_(tasks.size() + 1) {
+    : extent_(tasks.size()), offset_(tasks.size() + 1), rhythm_(tasks.size()) {
   const auto count = static_cast<std::int64_t>(tasks.size());
   std::vector<Plan> plans;
   plans.reserve(tasks.size());
@@ -110,6 +111,8 @@ BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, in
   rest_area2_.assign(slots, T(0));
   ring_start_.resize(slots);
   ring_per_step_.resize(slots);
+  swing_sine_.assign(slots, T(0));
+  swing_cosine_.assign(slots, T(0));
   edge_other_.resize(total.edge_slots * width);
   edge_present_.assign(total.edge_slots * width, T(0));
   inverse_mass_.assign(lanes, T(0));
@@ -144,9 +147,18 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
   const double first_time = midpoint ? scene.step / 2 : 0;
 
   std::vector<kernels::Turn<T>> start(nodes), per_step(nodes);
+  std::vector<kernels::Phasor> phasor(nodes);
   for (std::size_t n = 0; n < nodes; ++n) {
+    const double turns = first_time / body.period[n] + body.phase[n] / (2 * std::numbers::pi);
     per_step[n] = fixed_turn<T>(scene.step / body.period[n]);
-    start[n] = fixed_turn<T>(first_time / body.period[n] + body.phase[n] / (2 * std::numbers::pi));
+    start[n] = fixed_turn<T>(turns);
+    phasor[n] = kernels::phasor(fixed_turn<double>(turns));
+  }
+  Rhythm& rhythm = rhythm_[i];
+  rhythm.one_period = std::adjacent_find(body.period.begin(), body.period.end(),
+                                         std::not_equal_to<>()) == body.period.end();
+  if (rhythm.one_period && nodes > 0) {
+    rhythm.advance = fixed_turn<double>(scene.step / body.period.front());
   }
 
   int slot = 0;
@@ -183,7 +195,11 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
         ring_per_step_[place] = per_step[at(ring.neighbour)];
         if (ring.spring >= 0) {
           spring_[place] = T(1);
-          rest_length_[place] = static_cast<T>(body.rest_length[at(ring.spring)]);
+          const double rest_length = body.rest_length[at(ring.spring)];
+          const kernels::Phasor &own = phasor[node], &other = phasor[at(ring.neighbour)];
+          rest_length_[place] = static_cast<T>(rest_length);
+          swing_sine_[place] = static_cast<T>(rest_length * (own.cosine + other.cosine));
+          swing_cosine_[place] = static_cast<T>(rest_length * (own.sine + other.sine));
         }
         if (ring.triangle >= 0 && body.rest_area[at(ring.triangle)] >= scene.min_pressure_area) {
           rest_area2_[place] = static_cast<T>(2 * body.rest_area[at(ring.triangle)]);
@@ -240,6 +256,10 @@ kernels::BodyView<T> BodyBatch<T>::view(std::size_t i) {
   view.spring = spring_.data() + slots;
   view.rest_area2 = rest_area2_.data() + slots;
   view.ring_oscillator = {ring_start_.data() + slots, ring_per_step_.data() + slots};
+  view.swing_sine = swing_sine_.data() + slots;
+  view.swing_cosine = swing_cosine_.data() + slots;
+  view.one_period = rhythm_[i].one_period;
+  view.period_advance = rhythm_[i].advance;
   view.node_oscillator = {node_start_.data() + lanes, node_per_step_.data() + lanes};
   view.inverse_mass = inverse_mass_.data() + lanes;
   view.edge_begin = edge_begin_.data() + offset.edge_groups;

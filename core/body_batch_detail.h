@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <new>
 #include <span>
 #include <vector>
 
+#include "core/aligned_detail.h"
 #include "core/body.h"
 #include "core/locomotion.h"
 #include "core/scene.h"
@@ -12,22 +12,6 @@
 #include "kernels/self_collision.h"
 
 namespace metamorph::core {
-
-/// Storage aligned to a register, as the kernels' loads and stores demand.
-template <class T>
-struct AlignedAllocator {
-  using value_type = T;
-  AlignedAllocator() = default;
-  template <class U>
-  AlignedAllocator(const AlignedAllocator<U>&) {}
-  T* allocate(std::size_t n) {
-    return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{64}));
-  }
-  void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t{64}); }
-  friend bool operator==(const AlignedAllocator&, const AlignedAllocator&) { return true; }
-};
-template <class T>
-using Aligned = std::vector<T, AlignedAllocator<T>>;
 
 /// The bodies of many tasks as structure-of-arrays, ready for the kernels: every array holds all
 /// bodies one behind the other, each padded to whole lane groups. Constants of the bodies and their
@@ -62,18 +46,25 @@ class BodyBatch {
   struct Offset {
     std::size_t groups, slots, edge_groups, edge_slots, outline_edges;
   };
+  /// The period that all oscillators of a body share, if they do.
+  struct Rhythm {
+    bool one_period = false;
+    std::uint64_t advance = 0;  ///< of one step, 2^64 being one turn
+  };
   struct Plan;
 
   void fill(std::size_t i, const LocomotionTask& task, const Plan& plan, bool midpoint);
 
   std::vector<Extent> extent_;
   std::vector<Offset> offset_;
+  std::vector<Rhythm> rhythm_;
 
   // [groups of all bodies], [slots], ... each entry `width` wide where lanes are concerned.
   std::vector<int> ring_begin_, ring_size_, ring_closed_, edge_begin_, edge_size_;
   Aligned<std::uint32_t> neighbour_, before_, edge_other_;
   Aligned<T> rest_length_, spring_, rest_area2_, inverse_mass_, edge_present_;
   Aligned<kernels::Turn<T>> ring_start_, ring_per_step_, node_start_, node_per_step_;
+  Aligned<T> swing_sine_, swing_cosine_;
   Aligned<kernels::NodeRecord<T>> records_a_, records_b_;
   Aligned<T> vx_, vy_, extra_fx_, extra_fy_;
   std::vector<Index> node_of_lane_;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/aligned_detail.h"
 #include "core/body.h"
 #include "kernels/cell_mechanics.h"
 #include "kernels/node_record.h"
@@ -17,8 +18,8 @@ struct Colony {
   int count = 0;
   int created = 0;
   int died = 0;
-  std::vector<kernels::NodeRecord<T>> cell, next_cell;  ///< now, and room for the next step
-  std::vector<T> heading_x, heading_y;                  ///< orientation as a unit vector
+  Aligned<kernels::NodeRecord<T>> cell, next_cell;  ///< now, and room for the next step
+  std::vector<T> heading_x, heading_y;              ///< orientation as a unit vector
   std::vector<T> morphogen1, morphogen2;
   std::vector<int> id, mother, birth_step;
 

@@ -21,22 +21,22 @@ std::int64_t steps_of(int paper_steps, double step) {
   return std::llround(paper_steps * paper_step / step);
 }
 
-/// Every composition of terms, made once; picked by the scene's terms as bits.
+/// Every composition of terms, made once; picked by its number.
 template <class T>
 using StepFunction = void (*)(const kernels::BodyView<T>&, const kernels::StepCoefficients<T>&,
                               kernels::Turn<T>, kernels::StepExtremes<T>&);
 
-template <class T, unsigned... bits>
-constexpr auto step_table(std::integer_sequence<unsigned, bits...>) {
-  return std::array<StepFunction<T>, sizeof...(bits)>{
-      &kernels::step_body<T, kernels::terms_from(bits)>...};
+template <class T, unsigned... numbers>
+constexpr auto step_table(std::integer_sequence<unsigned, numbers...>) {
+  return std::array<StepFunction<T>, sizeof...(numbers)>{
+      &kernels::step_body<T, kernels::terms_from(numbers)>...};
 }
 
 template <class T>
 StepFunction<T> step_function(const kernels::Terms& terms) {
   static constexpr auto table =
-      step_table<T>(std::make_integer_sequence<unsigned, 1u << kernels::term_bits>{});
-  return table[kernels::bits_of(terms)];
+      step_table<T>(std::make_integer_sequence<unsigned, kernels::compositions>{});
+  return table[kernels::number_of(terms)];
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ void Runner<T>::run(std::size_t i, const LocomotionTask& task, Outcome& outcome,
 
 template <class T>
 void Runner<T>::step(std::uint64_t n) {
-  kernels::Terms terms = terms_of(*scene_, settling_);
+  kernels::Terms terms = terms_of(*scene_, actuation_);
   if (scene_->self_collision) {
     const auto fx = batch_.extra_fx(index_), fy = batch_.extra_fy(index_);
     if (touched_) {
@@ -83,13 +83,13 @@ bool Runner<T>::settle(Outcome& outcome) {
   begin_settling();
   const std::int64_t quiet_needed = steps_of(scene.settle_quiet_steps, step_);
   const std::int64_t most = steps_of(scene.settle_max_steps, step_);
-  const double quiet2 = scene.settle_speed * scene.settle_speed;
+  const kernels::Lanes<T> quiet2(static_cast<T>(scene.settle_speed * scene.settle_speed));
   std::int64_t quiet = 0, n = 0;
   while (n < most && quiet < quiet_needed) {
     const auto before = extremes_.largest_speed2;
     extremes_.largest_speed2 = kernels::Lanes<T>(T(0));
     step(static_cast<std::uint64_t>(n));
-    quiet = static_cast<double>(largest(extremes_.largest_speed2)) < quiet2 ? quiet + 1 : 0;
+    quiet = all(extremes_.largest_speed2 < quiet2) ? quiet + 1 : 0;
     extremes_.largest_speed2 = kernels::max(extremes_.largest_speed2, before);
     ++n;
     outcome.steps = n;
@@ -104,7 +104,7 @@ bool Runner<T>::settle(Outcome& outcome) {
 /// Settling is symplectic Euler: records hold (x_n, v_n), nothing is extrapolated.
 template <class T>
 void Runner<T>::begin_settling() {
-  settling_ = true;
+  actuation_ = kernels::Actuation::none;
   step_ = scene_->settle_step;
   coefficients_.step = static_cast<T>(step_);
   coefficients_.extrapolate = T(0);
@@ -116,7 +116,6 @@ void Runner<T>::begin_settling() {
 /// over: the body is at rest.
 template <class T>
 void Runner<T>::end_settling() {
-  settling_ = false;
   step_ = scene_->step;
   coefficients_ = coefficients_of<T>(*scene_, method_);
   for (int l = 0; l < view_.nodes; ++l) {
@@ -130,6 +129,7 @@ template <class T>
 void Runner<T>::actuate(Outcome& outcome, int every,
                         const std::function<void(const Frame&)>& observe) {
   const Scene& scene = *scene_;
+  actuation_ = view_.one_period ? kernels::Actuation::one_period : kernels::Actuation::own_period;
   const Mean start = mean_position();
   const std::int64_t count = steps_of(scene.run_steps, scene.step);
   const double ramp = scene.ramp_steps * paper_step;
@@ -138,8 +138,13 @@ void Runner<T>::actuate(Outcome& outcome, int every,
   if (observe) show(observe, 0);
   for (std::int64_t n = 0; n < count; ++n) {
     const double t = (static_cast<double>(n) + offset) * scene.step;
-    coefficients_.amplitude = static_cast<T>(scene.amplitude * (t < ramp ? t / ramp : 1.0));
-    step(static_cast<std::uint64_t>(n));
+    const double amplitude = scene.amplitude * (t < ramp ? t / ramp : 1.0);
+    const auto count_from_start = static_cast<std::uint64_t>(n);
+    const kernels::Phasor swing = kernels::phasor(view_.period_advance * count_from_start);
+    coefficients_.amplitude = static_cast<T>(amplitude);
+    coefficients_.swing_sine = static_cast<T>(amplitude * swing.sine);
+    coefficients_.swing_cosine = static_cast<T>(amplitude * swing.cosine);
+    step(count_from_start);
     outcome.steps = settled + n + 1;
     if (((n + 1) % check_interval == 0 || n + 1 == count) && !sound(outcome)) return;
     if (observe && (n + 1) % every == 0) show(observe, n + 1);

@@ -48,9 +48,9 @@ class Runner {
   kernels::BodyView<T> view_{};
   kernels::StepCoefficients<T> coefficients_{};
   kernels::StepExtremes<T> extremes_{};
-  bool settling_ = false;
-  double step_ = 0;       ///< time units, of the phase it is in
-  bool touched_ = false;  ///< the extra forces hold something
+  kernels::Actuation actuation_ = kernels::Actuation::none;  ///< of the phase it is in
+  double step_ = 0;                                          ///< time units, of the phase it is in
+  bool touched_ = false;                                     ///< the extra forces hold something
   CollisionList<T> collisions_;
   std::vector<double> frame_[4];
 };

@@ -9,13 +9,13 @@
 
 namespace metamorph::core {
 
-/// The terms that act in a scene, while settling or in the run.
-inline kernels::Terms terms_of(const Scene& scene, bool settling) {
+/// The terms that act in a scene.
+inline kernels::Terms terms_of(const Scene& scene, kernels::Actuation actuation) {
   return {.pressure = scene.pressure > 0,
           .drag = scene.drag,
           .ground = scene.ground,
-          .actuation = !settling,
-          .extra = false};
+          .extra = false,
+          .actuation = actuation};
 }
 
 /// The coefficients of a scene's run; those of settling and the ramp are set on the way.

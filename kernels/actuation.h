@@ -39,6 +39,19 @@ inline Lanes<T> sine(typename LaneTypes<T>::Mask phase) {
   return sign_flipped(fma(z, p, Lanes<T>(T(1))), u);
 }
 
+/// Sine and cosine of a phase, 2^64 being one turn.
+struct Phasor {
+  double sine, cosine;
+};
+
+inline Phasor phasor(std::uint64_t phase) {
+  LaneTypes<double>::Mask phases{};
+  phases[0] = static_cast<std::int64_t>(phase);
+  phases[1] = static_cast<std::int64_t>(phase + (std::uint64_t{1} << 62));
+  const Lanes<double> values = kernels::sine<double>(phases);
+  return {values[0], values[1]};
+}
+
 /// The oscillation sin(2 pi t / T + phi) of eq 3 at step n for the lanes at `base`.
 template <class T>
 inline Lanes<T> oscillation(const OscillatorView<T>& oscillator, int base, Turn<T> n) {

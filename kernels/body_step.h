@@ -11,29 +11,34 @@
 
 namespace metamorph::kernels {
 
+/// How rest lengths swing, eq 3.
+enum class Actuation : unsigned {
+  none,        ///< settling: they do not, and every node has drag of its own
+  own_period,  ///< every oscillator has a period of its own
+  one_period   ///< all share one (BodyView::one_period): a fraction of the arithmetic
+};
+
 /// Which terms a step is composed of. A term that is off costs nothing.
 struct Terms {
   bool pressure = true;
-  bool drag = false;      ///< of outline edges, eq 4 and 5
-  bool ground = false;    ///< gravity, contact, friction
-  bool actuation = true;  ///< eq 3
-  bool extra = false;     ///< forces from outside the step
-
-  constexpr bool settling() const { return !actuation; }  ///< then every node has drag of its own
+  bool drag = false;    ///< of outline edges, eq 4 and 5
+  bool ground = false;  ///< gravity, contact, friction
+  bool extra = false;   ///< forces from outside the step
+  Actuation actuation = Actuation::own_period;
 };
 
-/// Terms as bits, to tabulate every composition.
-inline constexpr int term_bits = 5;
-constexpr Terms terms_from(unsigned bits) {
-  return {.pressure = (bits & 1u) != 0,
-          .drag = (bits & 2u) != 0,
-          .ground = (bits & 4u) != 0,
-          .actuation = (bits & 8u) != 0,
-          .extra = (bits & 16u) != 0};
+/// Every composition of terms has a number, to tabulate them.
+inline constexpr unsigned compositions = 48;
+constexpr Terms terms_from(unsigned number) {
+  return {.pressure = (number & 1u) != 0,
+          .drag = (number & 2u) != 0,
+          .ground = (number & 4u) != 0,
+          .extra = (number & 8u) != 0,
+          .actuation = static_cast<Actuation>(number >> 4)};
 }
-constexpr unsigned bits_of(const Terms& terms) {
+constexpr unsigned number_of(const Terms& terms) {
   return (terms.pressure ? 1u : 0u) | (terms.drag ? 2u : 0u) | (terms.ground ? 4u : 0u) |
-         (terms.actuation ? 8u : 0u) | (terms.extra ? 16u : 0u);
+         (terms.extra ? 8u : 0u) | static_cast<unsigned>(terms.actuation) << 4;
 }
 
 /// Coefficients of a step, one value for all lanes.
@@ -42,7 +47,9 @@ struct StepCoefficients {
   T step = 0;         ///< h
   T extrapolate = 0;  ///< h/2: drift-kick-drift; 0: symplectic Euler
   T stiffness = 1, damping = 0, pressure = 0;
-  T amplitude = 0;  ///< A r(t), ramp included; set per step
+  T amplitude = 0;     ///< A r(t), ramp included; set per step
+  T swing_sine = 0;    ///< A r(t) sin(2 pi t/T), for bodies of one period
+  T swing_cosine = 0;  ///< A r(t) cos(2 pi t/T)
   T drag_normal = 0, drag_tangential = 0;
   T gravity_x = 0, gravity_y = 0;
   T ground_stiffness = 0, ground_damping = 0, friction = 0;
@@ -72,6 +79,7 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
   const Pack zero(T(0)), one(T(1)), tiny(T(1e-12));
   const Pack stiffness(c.stiffness), damping(c.damping), half_pressure_coefficient(c.pressure / 2);
   const Pack amplitude(c.amplitude), h(c.step), extrapolate(c.extrapolate);
+  const Pack swing_sine(c.swing_sine), swing_cosine(c.swing_cosine);
   const GroundCoefficients<T> ground{c.ground_stiffness, c.ground_damping, c.friction};
   const DragCoefficients<T> drag{c.drag_normal, c.drag_tangential};
 
@@ -86,7 +94,7 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
     }
 
     Pack own = zero;
-    if constexpr (terms.actuation) {
+    if constexpr (terms.actuation == Actuation::own_period) {
       own = fma(amplitude, oscillation(body.node_oscillator, node_base, n), one);
     }
 
@@ -121,15 +129,18 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
       }
 
       Pack rest_length = Pack::load(body.rest_length + base);
-      if constexpr (terms.actuation) {
+      if constexpr (terms.actuation == Actuation::own_period) {
         rest_length *= fma(amplitude, oscillation(body.ring_oscillator, base, n), own);
+      } else if constexpr (terms.actuation == Actuation::one_period) {
+        rest_length = fma(swing_sine, Pack::load(body.swing_sine + base), rest_length);
+        rest_length = fma(swing_cosine, Pack::load(body.swing_cosine + base), rest_length);
       }
       const Pack tension =
           spring_tension<T>(dx, dy, other.vx - self.vx, other.vy - self.vy, length, inverse_length,
                             rest_length, stiffness, damping, Pack::load(body.spring + base));
       if constexpr (terms.pressure) {
-        fx += fma(tension, dx, push * (before_dy - dy));
-        fy += fma(tension, dy, push * (dx - before_dx));
+        fx = fma(tension, dx, fma(push, before_dy - dy, fx));
+        fy = fma(tension, dy, fma(push, dx - before_dx, fy));
         before_dx = dx;
         before_dy = dy;
       } else {
@@ -157,7 +168,7 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
       fx += Pack(c.gravity_x);
       fy += Pack(c.gravity_y) + normal;
     }
-    if constexpr (terms.settling()) {
+    if constexpr (terms.actuation == Actuation::none) {
       fx = fma(Pack(-c.settle_drag), self.vx, fx);
       fy = fma(Pack(-c.settle_drag), self.vy, fy);
     }

@@ -46,10 +46,18 @@ struct BodyView {
   const T* rest_length = nullptr;            ///< L0, d
   const T* spring = nullptr;                 ///< 1 if the slot holds a spring, else 0
   const T* rest_area2 = nullptr;  ///< 2 S0 of the triangle to the slot before, d^2; 0: no pressure
+  // The oscillators of a body come in one of two forms; the other's arrays are not to be read.
+  // Each of its own period: the neighbour's.
   OscillatorView<T> ring_oscillator{};
+  // All of one period: the spring's two oscillators are one, a sin(2 pi t/T) + b cos(2 pi t/T).
+  const T* swing_sine = nullptr;    ///< L0 (cos phi_i + cos phi_j), d
+  const T* swing_cosine = nullptr;  ///< L0 (sin phi_i + sin phi_j), d
   // [groups * width]
   OscillatorView<T> node_oscillator{};
   const T* inverse_mass = nullptr;  ///< 1; 0 in an idle lane
+
+  bool one_period = false;           ///< all oscillators have the same
+  std::uint64_t period_advance = 0;  ///< then of one step: 2^64 is one turn
 
   // Outline edges of the nodes of the first groups, one slot per edge of a node.
   const int* edge_begin = nullptr;  ///< [outline_groups] first edge slot

@@ -138,6 +138,12 @@ inline std::uint32_t bits(LaneMask<T> mask) {
 #endif
 }
 
+/// True in every lane.
+template <class T>
+inline bool all(LaneMask<T> mask) {
+  return bits(mask) == (1u << Lanes<T>::width) - 1;
+}
+
 /// The largest lane.
 template <class T>
 inline T largest(Lanes<T> pack) {

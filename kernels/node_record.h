@@ -53,6 +53,28 @@ using Floats = Lanes<float>::Vector;
   return __builtin_shufflevector(a, b, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31);
 }
 
+// Consecutive records: the first (last) two columns of the rows a and b, and back.
+[[gnu::always_inline]] inline Floats columns_01(Floats a, Floats b) {
+  return __builtin_shufflevector(a, b, 0, 4, 8, 12, 16, 20, 24, 28, 1, 5, 9, 13, 17, 21, 25, 29);
+}
+[[gnu::always_inline]] inline Floats columns_23(Floats a, Floats b) {
+  return __builtin_shufflevector(a, b, 2, 6, 10, 14, 18, 22, 26, 30, 3, 7, 11, 15, 19, 23, 27, 31);
+}
+[[gnu::always_inline]] inline Floats first_halves(Floats a, Floats b) {
+  return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23);
+}
+[[gnu::always_inline]] inline Floats second_halves(Floats a, Floats b) {
+  return __builtin_shufflevector(a, b, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30,
+                                 31);
+}
+[[gnu::always_inline]] inline Floats records_0123(Floats xy, Floats uv) {
+  return __builtin_shufflevector(xy, uv, 0, 8, 16, 24, 1, 9, 17, 25, 2, 10, 18, 26, 3, 11, 19, 27);
+}
+[[gnu::always_inline]] inline Floats records_4567(Floats xy, Floats uv) {
+  return __builtin_shufflevector(xy, uv, 4, 12, 20, 28, 5, 13, 21, 29, 6, 14, 22, 30, 7, 15, 23,
+                                 31);
+}
+
 [[gnu::always_inline]] inline NodePack<float> gather_floats(const NodeRecord<float>* records,
                                                             const std::uint32_t* offset) {
   Lanes<float>::Vector row[4];
@@ -150,6 +172,20 @@ template <class T>
 /// The `width` consecutive records from `records` on.
 template <class T>
 [[gnu::always_inline]] inline NodePack<T> load(const NodeRecord<T>* records) {
+#if defined(__AVX512F__)
+  if constexpr (sizeof(T) == 4) {
+    const auto row = [&](int i) { return detail::Floats(_mm512_loadu_ps(&records[4 * i].x)); };
+    // First halves in order, then second halves.
+    const detail::Floats xy_low = detail::columns_01(row(0), row(1));
+    const detail::Floats xy_high = detail::columns_01(row(2), row(3));
+    const detail::Floats uv_low = detail::columns_23(row(0), row(1));
+    const detail::Floats uv_high = detail::columns_23(row(2), row(3));
+    return {Lanes<T>(detail::first_halves(xy_low, xy_high)),
+            Lanes<T>(detail::second_halves(xy_low, xy_high)),
+            Lanes<T>(detail::first_halves(uv_low, uv_high)),
+            Lanes<T>(detail::second_halves(uv_low, uv_high))};
+  }
+#endif
   std::uint32_t offset[Lanes<T>::width];
   for (std::uint32_t l = 0; l < Lanes<T>::width; ++l) offset[l] = record_offset<T>(l);
   return gather(records, offset);
@@ -160,19 +196,15 @@ template <class T>
 [[gnu::always_inline]] inline void store(const NodePack<T>& pack, NodeRecord<T>* records) {
 #if defined(__AVX512F__)
   if constexpr (sizeof(T) == 4) {
-    const detail::Floats xy_low = detail::interleave_low(pack.x.v, pack.y.v);
-    const detail::Floats xy_high = detail::interleave_high(pack.x.v, pack.y.v);
-    const detail::Floats uv_low = detail::interleave_low(pack.vx.v, pack.vy.v);
-    const detail::Floats uv_high = detail::interleave_high(pack.vx.v, pack.vy.v);
-    const detail::Floats row[4] = {
-        detail::low_pairs(xy_low, uv_low), detail::high_pairs(xy_low, uv_low),
-        detail::low_pairs(xy_high, uv_high), detail::high_pairs(xy_high, uv_high)};
-    for (int q = 0; q < 4; ++q) {
-      _mm_store_ps(&records[q].x, __builtin_shufflevector(row[q], row[q], 0, 1, 2, 3));
-      _mm_store_ps(&records[q + 4].x, __builtin_shufflevector(row[q], row[q], 4, 5, 6, 7));
-      _mm_store_ps(&records[q + 8].x, __builtin_shufflevector(row[q], row[q], 8, 9, 10, 11));
-      _mm_store_ps(&records[q + 12].x, __builtin_shufflevector(row[q], row[q], 12, 13, 14, 15));
-    }
+    const detail::Floats xy_low = detail::first_halves(pack.x.v, pack.y.v);
+    const detail::Floats xy_high = detail::second_halves(pack.x.v, pack.y.v);
+    const detail::Floats uv_low = detail::first_halves(pack.vx.v, pack.vy.v);
+    const detail::Floats uv_high = detail::second_halves(pack.vx.v, pack.vy.v);
+    const auto put = [&](int i, detail::Floats row) { _mm512_storeu_ps(&records[4 * i].x, row); };
+    put(0, detail::records_0123(xy_low, uv_low));
+    put(1, detail::records_4567(xy_low, uv_low));
+    put(2, detail::records_0123(xy_high, uv_high));
+    put(3, detail::records_4567(xy_high, uv_high));
     return;
   }
 #elif defined(__AVX2__) && defined(__FMA__)

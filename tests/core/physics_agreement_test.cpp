@@ -159,6 +159,22 @@ TEST_P(Agreement, AfterManyPeriods) {
   expect_agreement(GetParam(), blob_body(12, 2), lasting(core::water_scene(), 2000));
 }
 
+TEST_P(Agreement, OfOscillatorsOfOnePeriod) {
+  // Blobs have periods of their own, which the tests above see; one period takes another way.
+  core::Body body = blob_body(12, 2);
+  std::fill(body.period.begin(), body.period.end(), 37.3);
+  const core::Scene scene = lasting(core::water_scene(), 2000);
+  expect_agreement(GetParam(), body, scene);
+  // The smallest difference in one period leads back to the other way, to the same end.
+  core::Body nearly = body;
+  nearly.period.back() = std::nextafter(nearly.period.back(), 38.0);
+  const core::Outcome one = GetParam().run(body, scene, 1 << 30, [](const core::Frame&) {});
+  const core::Outcome own = GetParam().run(nearly, scene, 1 << 30, [](const core::Frame&) {});
+  EXPECT_TRUE(within(one.distance - own.distance, 2 * rounding(GetParam(), scene, one)));
+  EXPECT_NE(one.mean_position, own.mean_position);
+  expect_agreement(GetParam(), body, crowded(lasting(core::land_scene(), 100)));
+}
+
 TEST_P(Agreement, OfSymplecticEuler) {
   const core::Precision precision =
       GetParam().round_off == round_off_32 ? core::Precision::float32 : core::Precision::float64;
