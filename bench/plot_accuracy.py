@@ -23,7 +23,8 @@ STYLE = {
     "DKD float32": ("#0b5fa5", "o"), "DKD float64": ("#5fa8e6", "o"), "DKD": ("#0b5fa5", "o"),
     "SE float32": ("#c4551a", "s"), "SE float64": ("#f0a070", "s"), "SE": ("#c4551a", "s"),
     "velocity Verlet": ("#2a8f5b", "^"), "midpoint": ("#999999", "v"), "RK4": ("#7a3fa0", "D"),
-    "linearly implicit Euler": ("#8a6d1f", "P"), "XPBD": ("#c02a5a", "X")}
+    "linearly implicit Euler": ("#8a6d1f", "P"), "ROS2": ("#1f7d8a", "p"),
+    "XPBD": ("#c02a5a", "X")}
 RAN = ("ok", "not_settled")
 
 
@@ -185,19 +186,19 @@ def stability(rows, charts):
             colour, marker = STYLE[method]
             for specimen in distinct(mine, "specimen"):
                 body = [row for row in mine if row["specimen"] == specimen]
-                axis.plot(column(body, "value"), column(body, "theory"), color=colour,
-                          linewidth=0.9)
+                theory = column(body, "theory")
+                theory[np.isinf(theory)] = np.nan
+                axis.plot(column(body, "value"), theory, color=colour, linewidth=0.9)
                 axis.plot(column(body, "value"), column(body, "measured"), color=colour,
                           marker=marker, markersize=3, linestyle="none",
                           label=method if specimen == mine[0]["specimen"] else None)
-            ratio = column(mine, "measured") / column(mine, "theory")
-            cells.append([name, method, f"{ratio.min():.3f}", f"{np.median(ratio):.3f}",
-                          f"{ratio.max():.3f}"])
+            measured, theory = column(mine, "measured"), column(mine, "theory")
+            free = bool(np.isinf(theory[0]))
+            value = measured if free else measured / theory
+            cells.append([name, method + (" (no limit in theory: the step)" if free else ""),
+                          f"{value.min():.3f}", f"{np.median(value):.3f}", f"{value.max():.3f}"])
         axis.set(xlabel=label[name], ylabel="largest stable step")
-        if name in ("stiffness", "drag speed"):
-            axis.set(xscale="log", yscale="log")
-        else:
-            axis.set_ylim(bottom=0)
+        axis.set(yscale="log", xscale="log" if name in ("stiffness", "drag speed") else "linear")
     axes[0].legend(fontsize=7, frameon=False)
     bodies = ", ".join(sorted({row["cells"] for row in rows}, key=int))
     figure.suptitle(f"Measured by bisection (marks) and theory (lines); bodies of {bodies} cells",

@@ -12,7 +12,7 @@ MAY_INCLUDE = {
     "kernels": {"kernels"},
     "core": {"core", "kernels"},
     "evolve": {"evolve", "core"},
-    "tests": {"tests", "evolve", "core", "kernels"},
+    "tests": {"tests", "bench", "evolve", "core", "kernels"},
     "bench": {"bench", "evolve", "core", "kernels"},
 }
 TOP_LEVEL_FOLDERS = set(ROOMS)

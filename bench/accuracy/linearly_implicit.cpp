@@ -1,6 +1,7 @@
 #include "bench/accuracy/linearly_implicit.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "kernels/reference/ground.h"
 #include "kernels/reference/pressure.h"
@@ -12,24 +13,35 @@ namespace ref = kernels::reference;
 
 int row(core::Index node, int axis) { return 2 * node + axis; }
 
+/// Two coordinates per node as one vector.
+Eigen::VectorXd joined(const std::vector<double>& x, const std::vector<double>& y) {
+  Eigen::VectorXd both(2 * static_cast<Eigen::Index>(x.size()));
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    both[2 * static_cast<Eigen::Index>(i)] = x[i];
+    both[2 * static_cast<Eigen::Index>(i) + 1] = y[i];
+  }
+  return both;
+}
+
+double friction_of(const core::Scene& scene) { return scene.ground ? scene.friction : 0; }
+
 }  // namespace
 
-LinearlyImplicitEuler::LinearlyImplicitEuler(const core::Body& body, const core::Scene& scene)
+ImplicitMatrix::ImplicitMatrix(const core::Body& body, const core::Scene& scene)
     : body_(body),
       scene_(scene),
-      fx_(body.x.size()),
-      fy_(body.x.size()),
-      normal_(body.x.size()),
       left_side_(2 * body.node_count(), 2 * body.node_count()),
       stiffness_matrix_(2 * body.node_count(), 2 * body.node_count()) {}
 
-void LinearlyImplicitEuler::assemble(const core::ReferenceSystem& system, double h) {
+void ImplicitMatrix::factorise(const core::ReferenceSystem& system,
+                               const std::vector<double>& normal, double of_damping,
+                               double of_stiffness) {
   const double damping = scene_.damping;
   left_.clear();
   stiffness_.clear();
   const auto add = [&](int r, int c, double k, double d) {
     stiffness_.emplace_back(r, c, k);
-    left_.emplace_back(r, c, h * d + h * h * k);
+    left_.emplace_back(r, c, of_damping * d + of_stiffness * k);
   };
   for (const auto& [i, j] : body_.springs) {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
@@ -63,8 +75,7 @@ void LinearlyImplicitEuler::assemble(const core::ReferenceSystem& system, double
             row(corners[q / 2], static_cast<int>(q % 2)), k * g[p] * g[q], 0);
   }
   for (core::Index i = 0; i < body_.node_count(); ++i) {
-    const auto a = static_cast<std::size_t>(i);
-    const bool touches = scene_.ground && normal_[a] > 0;
+    const bool touches = scene_.ground && normal[static_cast<std::size_t>(i)] > 0;
     add(row(i, 1), row(i, 1), touches ? scene_.ground_stiffness : 0,
         touches ? scene_.ground_damping : 0);
     left_.emplace_back(row(i, 0), row(i, 0), system.mass);
@@ -72,32 +83,83 @@ void LinearlyImplicitEuler::assemble(const core::ReferenceSystem& system, double
   }
   stiffness_matrix_.setFromTriplets(stiffness_.begin(), stiffness_.end());
   left_side_.setFromTriplets(left_.begin(), left_.end());
-}
-
-void LinearlyImplicitEuler::step(core::ReferenceSystem& system, double t, double h) {
-  system.forces(system.nodes(), t + h, {fx_, fy_}, normal_);
-  assemble(system, h);
-  const Eigen::Index size = 2 * body_.node_count();
-  Eigen::VectorXd velocity(size), force(size);
-  for (Eigen::Index i = 0; i < size / 2; ++i) {
-    const auto a = static_cast<std::size_t>(i);
-    velocity[2 * i] = system.vx[a];
-    velocity[2 * i + 1] = system.vy[a];
-    force[2 * i] = fx_[a];
-    force[2 * i + 1] = fy_[a];
-  }
   if (!analysed_) solver_.analyzePattern(left_side_);
   analysed_ = true;
   solver_.factorize(left_side_);
-  const Eigen::VectorXd kick = solver_.solve(h * (force - h * (stiffness_matrix_ * velocity)));
-  const double friction = scene_.ground ? scene_.friction : 0;
-  for (Eigen::Index i = 0; i < size / 2; ++i) {
-    const auto a = static_cast<std::size_t>(i);
-    system.vx[a] =
-        ref::after_friction(system.vx[a] + kick[2 * i], friction * h * normal_[a] / system.mass);
-    system.vy[a] += kick[2 * i + 1];
-    system.x[a] += h * system.vx[a];
-    system.y[a] += h * system.vy[a];
+}
+
+Eigen::VectorXd ImplicitMatrix::solve(const Eigen::VectorXd& right_side) const {
+  return solver_.solve(right_side);
+}
+
+LinearlyImplicitEuler::LinearlyImplicitEuler(const core::Body& body, const core::Scene& scene)
+    : friction_(friction_of(scene)),
+      matrix_(body, scene),
+      fx_(body.x.size()),
+      fy_(body.x.size()),
+      normal_(body.x.size()) {}
+
+void LinearlyImplicitEuler::step(core::ReferenceSystem& system, double t, double h) {
+  system.forces(system.nodes(), t + h, {fx_, fy_}, normal_);
+  matrix_.factorise(system, normal_, h, h * h);
+  const Eigen::VectorXd kick = matrix_.solve(
+      h * (joined(fx_, fy_) - h * (matrix_.stiffness() * joined(system.vx, system.vy))));
+  for (std::size_t i = 0; i < system.x.size(); ++i) {
+    const auto place = 2 * static_cast<Eigen::Index>(i);
+    system.vx[i] =
+        ref::after_friction(system.vx[i] + kick[place], friction_ * h * normal_[i] / system.mass);
+    system.vy[i] += kick[place + 1];
+    system.x[i] += h * system.vx[i];
+    system.y[i] += h * system.vy[i];
+  }
+}
+
+Rosenbrock2::Rosenbrock2(const core::Body& body, const core::Scene& scene)
+    : friction_(friction_of(scene)),
+      matrix_(body, scene),
+      x_(body.x.size()),
+      y_(body.x.size()),
+      vx_(body.x.size()),
+      vy_(body.x.size()),
+      fx_(body.x.size()),
+      fy_(body.x.size()),
+      first_normal_(body.x.size()),
+      normal_(body.x.size()) {}
+
+// With k = (kx, kv) and a right side (rx, rv), the rows of (1 - g h A) k = r are kx = rx + g h kv
+// and (m + g h C + g^2 h^2 K) kv = m rv - g h K rx.
+void Rosenbrock2::step(core::ReferenceSystem& system, double t, double h) {
+  const double gh = (1 - std::numbers::sqrt2 / 2) * h;
+  system.forces(system.nodes(), t, {fx_, fy_}, first_normal_);
+  matrix_.factorise(system, first_normal_, gh, gh * gh);
+  const auto& stiffness = matrix_.stiffness();
+  const Eigen::VectorXd v = joined(system.vx, system.vy);
+  const Eigen::VectorXd kv1 = matrix_.solve(joined(fx_, fy_) - gh * (stiffness * v));
+  const Eigen::VectorXd kx1 = v + gh * kv1;
+
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    const auto place = 2 * static_cast<Eigen::Index>(i);
+    x_[i] = system.x[i] + h * kx1[place];
+    y_[i] = system.y[i] + h * kx1[place + 1];
+    vx_[i] = system.vx[i] + h * kv1[place];
+    vy_[i] = system.vy[i] + h * kv1[place + 1];
+  }
+  system.forces({x_, y_, vx_, vy_}, t + h, {fx_, fy_}, normal_);
+  const Eigen::VectorXd rx = v + h * kv1 - 2 * kx1;
+  const Eigen::VectorXd kv2 =
+      matrix_.solve(joined(fx_, fy_) - 2 * system.mass * kv1 - gh * (stiffness * rx));
+  const Eigen::VectorXd kx2 = rx + gh * kv2;
+
+  const Eigen::VectorXd dx = h * (1.5 * kx1 + 0.5 * kx2);
+  const Eigen::VectorXd dv = h * (1.5 * kv1 + 0.5 * kv2);
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    const auto place = 2 * static_cast<Eigen::Index>(i);
+    system.x[i] += dx[place];
+    system.y[i] += dx[place + 1];
+    system.vx[i] =
+        ref::after_friction(system.vx[i] + dv[place],
+                            friction_ * h * (first_normal_[i] + normal_[i]) / 2 / system.mass);
+    system.vy[i] += dv[place + 1];
   }
 }
 

@@ -19,6 +19,12 @@ std::int64_t run_length(const core::Scene& scene) {
   return std::llround(scene.run_steps * core::paper_step / scene.step);
 }
 
+/// Of all forces: one in every step of settling, so many in every step of the run.
+double evaluations(const core::Outcome& outcome, const core::Scene& scene, int per_step) {
+  const double settling = std::round(outcome.settle_time / scene.settle_step);
+  return settling + per_step * (static_cast<double>(outcome.steps) - settling);
+}
+
 /// Keeps the first and the last frame that a simulator shows.
 auto keeper(Measured& result, std::int64_t last) {
   return [&result, last](const core::Frame& frame) {
@@ -58,7 +64,7 @@ Method plain(const std::string& name, core::ReferenceMethod kind, int evaluation
             const double begin = thread_seconds();
             result.outcome = core::simulate_reference(body, scene, options);
             result.seconds = thread_seconds() - begin;
-            result.evaluations = evaluations_per_step * static_cast<double>(result.outcome.steps);
+            result.evaluations = evaluations(result.outcome, scene, evaluations_per_step);
             return result;
           }};
 }
@@ -68,10 +74,12 @@ template <class Stepper>
 Method comparison(const std::string& name) {
   return {name, [](const core::Body& body, const core::Scene& scene) {
             Stepper stepper(body, scene);
-            return evaluate(body, scene, core::ReferenceMethod::symplectic_euler,
-                            [&](core::ReferenceSystem& system, double t, double h) {
-                              stepper.step(system, t, h);
-                            });
+            Measured result = evaluate(body, scene, core::ReferenceMethod::symplectic_euler,
+                                       [&](core::ReferenceSystem& system, double t, double h) {
+                                         stepper.step(system, t, h);
+                                       });
+            result.evaluations = evaluations(result.outcome, scene, Stepper::evaluations_per_step);
+            return result;
           }};
 }
 
@@ -91,6 +99,7 @@ const std::vector<Method>& all_methods() {
       plain("midpoint", ReferenceMethod::midpoint, 2),
       plain("RK4", ReferenceMethod::runge_kutta_4, 4),
       comparison<LinearlyImplicitEuler>("linearly implicit Euler"),
+      comparison<Rosenbrock2>("ROS2"),
       comparison<Xpbd>("XPBD"),
   };
   return methods;

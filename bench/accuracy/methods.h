@@ -26,7 +26,7 @@ struct Method {
 };
 
 /// float32 and float64 kernels (drift-kick-drift, symplectic Euler), the plain methods of the
-/// reference, and what is here for comparison only: linearly implicit Euler and XPBD.
+/// reference, and what is here for comparison only: linearly implicit Euler, ROS2 and XPBD.
 const std::vector<Method>& all_methods();
 
 /// One of them by name; std::out_of_range if there is none.

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
 
+#include "bench/accuracy/linearly_implicit.h"
 #include "bench/accuracy/parallel.h"
 #include "bench/accuracy/studies.h"
 #include "core/random.h"
@@ -15,15 +19,48 @@ namespace {
 using core::ReferenceMethod;
 using core::ReferenceSystem;
 
+/// One step from time t of size h.
+using Stepper = std::function<void(ReferenceSystem&, double t, double h)>;
+
 struct Named {
   std::string name;
-  ReferenceMethod method;
-  double drag_factor;  ///< limit of quadratic drag in units of 2 m / (d_N L v)
+  std::function<Stepper(const core::Body&, const core::Scene&)> stepper;
+  /// Largest stable step at rest by linear theory; none: there is no limit.
+  std::function<double(const core::Body&, const core::Scene&)> rest_limit;
+  double drag_factor;  ///< limit of quadratic drag in units of 2 m / (d_N L v); 0: not known
 };
 
-const std::vector<Named> methods = {{"SE", ReferenceMethod::symplectic_euler, 1},
-                                    {"DKD", ReferenceMethod::drift_kick_drift, 0.58},
-                                    {"RK4", ReferenceMethod::runge_kutta_4, 1.2}};
+Named explicit_method(const std::string& name, ReferenceMethod method, double drag_factor) {
+  return {name,
+          [=](const core::Body&, const core::Scene&) -> Stepper {
+            return [=](ReferenceSystem& system, double t, double h) { system.step(method, t, h); };
+          },
+          [=](const core::Body& body, const core::Scene& scene) {
+            return linear_step_limit(body, scene, scene.damping, method);
+          },
+          drag_factor};
+}
+
+template <class Method>
+Named implicit_method(const std::string& name) {
+  return {name,
+          [](const core::Body& body, const core::Scene& scene) -> Stepper {
+            const auto method = std::make_shared<Method>(body, scene);
+            return [=](ReferenceSystem& system, double t, double h) { method->step(system, t, h); };
+          },
+          {},
+          0};
+}
+
+const std::vector<Named> methods = {
+    explicit_method("SE", ReferenceMethod::symplectic_euler, 1),
+    explicit_method("DKD", ReferenceMethod::drift_kick_drift, 0.58),
+    explicit_method("RK4", ReferenceMethod::runge_kutta_4, 1.2),
+    implicit_method<LinearlyImplicitEuler>("linearly implicit Euler"),
+    implicit_method<Rosenbrock2>("ROS2")};
+
+/// Steps beyond this are not tried: an actuation period has no four of them left.
+constexpr double longest_step = 8;
 
 core::Scene bare_scene() {
   core::Scene scene = core::water_scene();
@@ -36,27 +73,28 @@ core::Scene bare_scene() {
 /// Does a disturbance of 1e-7 d stay one? A step a hundredth beyond the limit multiplies the worst
 /// mode by more than 1.02 per step, and 2000 of those by 1e17; 1e-3 d per time unit is far beyond
 /// what a stable motion reaches.
-bool stays_small(const core::Body& body, const core::Scene& scene, ReferenceMethod method,
-                 double h) {
+bool stays_small(const core::Body& body, const core::Scene& scene, const Named& named, double h) {
   ReferenceSystem system(body, scene);
+  const Stepper step = named.stepper(body, scene);
   core::RandomStream random(core::Purpose::test, 7, 0, 0);
   for (double& x : system.x) x += 1e-7 * (2 * random.uniform() - 1);
   for (double& y : system.y) y += 1e-7 * (2 * random.uniform() - 1);
   for (int n = 1; n <= 2000; ++n) {
-    system.step(method, 0, h);
+    step(system, 0, h);
     if (n % 50 == 0 && !(system.max_speed() < 1e-3)) return false;
   }
   return true;
 }
 
 /// Does a body that is thrown at a speed, or swims for `duration`, stay sound?
-bool survives(const core::Body& body, const core::Scene& scene, ReferenceMethod method, double h,
+bool survives(const core::Body& body, const core::Scene& scene, const Named& named, double h,
               double speed, double duration) {
   ReferenceSystem system(body, scene);
+  const Stepper step = named.stepper(body, scene);
   std::fill(system.vy.begin(), system.vy.end(), speed);
   const auto steps = std::llround(duration / h);
   for (std::int64_t n = 0; n < steps; ++n) {
-    system.step(method, static_cast<double>(n) * h, h);
+    step(system, static_cast<double>(n) * h, h);
     const auto health = system.examine(h);
     if (health.fault != kernels::reference::Fault::none &&
         !(health.fault == kernels::reference::Fault::speed && health.max_speed < 1.5 * speed))
@@ -65,8 +103,10 @@ bool survives(const core::Body& body, const core::Scene& scene, ReferenceMethod 
   return true;
 }
 
+/// Largest stable step between two; the upper one if that is stable.
 template <class Stable>
 double bisect(double low, double high, Stable&& stable) {
+  if (stable(high)) return high;
   while (high / low > 1.005) {
     const double middle = std::sqrt(low * high);
     (stable(middle) ? low : high) = middle;
@@ -114,25 +154,24 @@ std::vector<Point> nonlinear_points() {
 }
 
 std::string row(const Specimen& specimen, const Point& point, const Named& named) {
-  const double rest =
-      linear_step_limit(specimen.body, point.scene, point.scene.damping, named.method);
-  double theory = rest, measured = 0;
+  const core::Body& body = specimen.body;
+  const bool limited = static_cast<bool>(named.rest_limit);
+  const double rest = limited ? named.rest_limit(body, point.scene) : longest_step / 2;
+  double theory = limited ? rest : std::numeric_limits<double>::infinity(), measured = 0;
   if (point.map == "drag speed") {
-    theory = std::min(rest, named.drag_factor * 2 / point.value);
-    measured = bisect(0.02 * theory, 2 * rest, [&](double h) {
-      return survives(specimen.body, point.scene, named.method, h, point.speed, 40);
+    if (named.drag_factor > 0) theory = std::min(rest, named.drag_factor * 2 / point.value);
+    measured = bisect((limited ? 0.02 * theory : 0.02), 2 * rest, [&](double h) {
+      return survives(body, point.scene, named, h, point.speed, 40);
     });
   } else if (point.map == "amplitude") {
-    measured = bisect(0.1 * rest, 2 * rest, [&](double h) {
-      return survives(specimen.body, point.scene, named.method, h, 0, 160);
-    });
+    measured = bisect(0.1 * rest, 2 * rest,
+                      [&](double h) { return survives(body, point.scene, named, h, 0, 160); });
   } else {
-    measured = bisect(0.5 * rest, 2 * rest, [&](double h) {
-      return stays_small(specimen.body, point.scene, named.method, h);
-    });
+    measured = bisect(0.5 * rest, 2 * rest,
+                      [&](double h) { return stays_small(body, point.scene, named, h); });
   }
-  return fmt::format("{},{},{},{},{},{:.5g},{:.5g}\n", point.map, specimen.name,
-                     specimen.body.node_count(), named.name, point.value, theory, measured);
+  return fmt::format("{},{},{},{},{},{:.5g},{:.5g}\n", point.map, specimen.name, body.node_count(),
+                     named.name, point.value, theory, measured);
 }
 
 /// The specimens nearest to these sizes: the spectrum of a large body takes long.

@@ -52,6 +52,7 @@ std::vector<Ladder> ladders(const core::Scene& scene) {
             {"midpoint", {0.4, 0.2}, 4},
             {"RK4", {0.8, 0.6, 0.4, 0.2}},
             {"linearly implicit Euler", {0.8, 0.4, 0.2}, 8},
+            {"ROS2", {0.8, 0.4, 0.2}, 8},
             {"XPBD", {0.4, 0.2, 0.1}, 4}};
   }
   return {{"DKD float32", {0.15, 0.1, 0.05, 0.025, 0.0125}},
@@ -61,6 +62,7 @@ std::vector<Ladder> ladders(const core::Scene& scene) {
           {"velocity Verlet", {0.2, 0.1}, 8},
           {"RK4", {0.4, 0.2}, 8},
           {"linearly implicit Euler", {0.4, 0.2}, 8},
+          {"ROS2", {0.4, 0.2}, 8},
           {"XPBD", {0.1, 0.05}, 8}};
 }
 

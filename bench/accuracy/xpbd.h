@@ -14,6 +14,8 @@ namespace metamorph::bench {
 /// impulse on the velocity after it. For runs, not for settling.
 class Xpbd {
  public:
+  static constexpr int evaluations_per_step = 1;
+
   Xpbd(const core::Body& body, const core::Scene& scene);
   void step(core::ReferenceSystem& system, double t, double h);
 
