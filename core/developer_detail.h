@@ -41,7 +41,10 @@ class Developer {
         next_y_(colony_.cell.size()),
         willing_(colony_.cell.size()) {}
 
-  std::vector<Embryo> operator()(const Network& network, std::span<const int> stages) {
+  /// check: what is to see every renewal, or nullptr.
+  std::vector<Embryo> operator()(const Network& network, std::span<const int> stages,
+                                 LinkCheck* check = nullptr) {
+    check_ = check;
     control_.set_network(network);
     colony_.reset();
     neighbourhood_.clear();
@@ -49,13 +52,14 @@ class Developer {
     status_ = Status::ok;
     std::vector<Embryo> result;
     result.reserve(stages.size());
-    for (int step = 0; result.size() < stages.size(); ++step) {
+    for (int step = 0;; ++step) {
       while (result.size() < stages.size() && step == stages[result.size()]) {
         result.push_back(embryo(step));
       }
+      if (result.size() == stages.size()) break;
       if (colony_.count == 0) continue;
-      if (step % rules_.renew_interval == 0) renew(neighbourhood_);
-      if (step % rules_.update_interval == 0 && update(step)) renew(neighbourhood_);
+      if (step % rules_.renew_interval == 0) renew(step, neighbourhood_);
+      if (step % rules_.update_interval == 0 && update(step)) renew(step, neighbourhood_);
       move();
     }
     return result;
@@ -64,7 +68,7 @@ class Developer {
  private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-  void renew(Neighbourhood& neighbourhood) {
+  void renew(int step, Neighbourhood& neighbourhood) {
     x_.resize(at(colony_.count));
     y_.resize(at(colony_.count));
     bool finite = true;
@@ -82,6 +86,9 @@ class Developer {
     previous_.resize(at(colony_.count), -1);
     neighbourhood.renew(x_, y_, previous_, rules_.link_limit);
     std::iota(previous_.begin(), previous_.end(), 0);
+    if (check_ != nullptr) {
+      check_->compare(step, x_, y_, rules_.link_limit, neighbourhood.links());
+    }
   }
 
   /// One update of the control network. True if cells were born or died.
@@ -153,7 +160,7 @@ class Developer {
     const bool renewal_due = step % rules_.renew_interval == 0;
     if (!renewal_due) stage_neighbourhood_ = neighbourhood_;
     Neighbourhood& neighbourhood = renewal_due ? neighbourhood_ : stage_neighbourhood_;
-    renew(neighbourhood);
+    renew(step, neighbourhood);
     control_.evaluate(rules_, step, colony_, neighbourhood);
     Embryo embryo;
     embryo.step = step;
@@ -185,6 +192,7 @@ class Developer {
   Colony<T> colony_;
   Control<T> control_;
   Neighbourhood neighbourhood_, stage_neighbourhood_;
+  LinkCheck* check_ = nullptr;
   Status status_ = Status::ok;
   std::vector<T> next_x_, next_y_;  // headings after the update, if willing
   std::vector<char> willing_;       // not inhibited

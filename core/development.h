@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/body.h"
+#include "core/link_check.h"
 #include "core/network.h"
 #include "core/status.h"
 
@@ -49,8 +50,9 @@ struct Embryo {
 /// Develops every network as one batch and returns, for each of them, the embryo at each of
 /// `stages` (ascending steps, the last one <= rules.steps). Taking an embryo out leaves no trace.
 /// result[network][stage]; the same bits for any batch, order and thread count (0: all threads).
+/// checks: empty, or one for each network, which then sees every renewal of its neighbours.
 std::vector<std::vector<Embryo>> develop(std::span<const Network> networks,
                                          const DevelopmentRules& rules, std::span<const int> stages,
-                                         int threads);
+                                         int threads, std::span<LinkCheck> checks = {});
 
 }  // namespace metamorph::core

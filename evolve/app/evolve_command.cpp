@@ -24,6 +24,7 @@ struct Arguments {
   std::vector<std::string> set;
   bool keys = false;
   bool print = false;
+  bool check_links = false;
 };
 
 volatile std::sig_atomic_t interrupts = 0;
@@ -128,10 +129,17 @@ void evolve(const Arguments& given) {
   const std::unique_ptr<Record> record = open_record(given);
   Progress progress(isatty(STDERR_FILENO) == 1);
   PictureReporter pictures;
-  const RunSummary summary =
-      run(*record, {given.threads, [] { return interrupts > 0; }, {&pictures, &progress}});
+  CheckedLinks checked;
+  const RunSummary summary = run(*record, {given.threads,
+                                           [] { return interrupts > 0; },
+                                           {&pictures, &progress},
+                                           given.check_links ? &checked : nullptr});
   if (!pictures.failure().empty()) {
     fmt::print(stderr, "no picture of the best: {}\n", pictures.failure());
+  }
+  if (given.check_links) {
+    fmt::print("{} links at {} renewals of {} developments: all as a full triangulation has them\n",
+               checked.links, checked.renewals, checked.developments);
   }
   const std::string directory = record->directory().string();
   if (summary.interrupted) {
@@ -172,6 +180,10 @@ void add_evolve_command(CLI::App& app) {
   command->add_flag("--keys", given->keys, "lists all keys with default, meaning and range");
   command->add_flag("--print", given->print,
                     "prints the complete experiment as TOML instead of running it");
+  command->add_flag("--check-links", given->check_links,
+                    "for debugging: triangulates anew at every renewal of the cells' neighbours, "
+                    "and stops at the first link that differs; the run and its record stay the "
+                    "same");
   command->callback([given] { evolve(*given); });
 }
 

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -35,6 +37,7 @@ struct GrowOptions {
   std::string picture = "svg";
   bool overwrite = false;
   bool json = false;
+  bool check_links = false;
 };
 
 /// One requested step: the state, its body and the files they go to.
@@ -59,10 +62,12 @@ std::vector<int> steps_of(const GrowOptions& options) {
   return steps;
 }
 
-std::vector<Grown> grow(const Genome& genome, const GrowOptions& options, const fs::path& out) {
+/// check: what is to see every renewal of neighbours, or nothing.
+std::vector<Grown> grow(const Genome& genome, const GrowOptions& options, const fs::path& out,
+                        std::span<core::LinkCheck> check) {
   const std::vector<int> steps = steps_of(options);
   const std::array<core::Network, 1> networks = {compile(genome)};
-  auto embryos = core::develop(networks, options.rules, steps, 1);
+  auto embryos = core::develop(networks, options.rules, steps, 1, check);
   std::vector<Grown> result;
   for (core::Embryo& embryo : embryos.front()) {
     Grown grown;
@@ -119,7 +124,11 @@ void grow_command(const GrowOptions& options) {
   const Genome genome = read_genome(options.genome);
   const fs::path out =
       options.out.empty() ? fs::path(options.genome).stem() : fs::path(options.out);
-  const std::vector<Grown> all = grow(genome, options, out);
+  std::vector<core::LinkCheck> check(options.check_links ? 1 : 0);
+  const std::vector<Grown> all = grow(genome, options, out, check);
+  if (options.check_links && !check[0].ok()) {
+    throw std::runtime_error(options.genome + ": " + difference_text(check[0]));
+  }
   const fs::path picture = out / ("development." + options.picture);
   const bool with_picture = options.picture != "none";
 
@@ -157,6 +166,10 @@ void grow_command(const GrowOptions& options) {
   if (with_picture) draw(all, larva_steps, picture);
   print(all, options.json);
   if (with_picture && !options.json) fmt::print("picture: {}\n", picture.string());
+  if (options.check_links && !options.json) {
+    fmt::print("{} links at {} renewals: all as a full triangulation has them\n", check[0].links,
+               check[0].renewals);
+  }
 }
 
 }  // namespace
@@ -186,6 +199,9 @@ void add_grow_command(CLI::App& app) {
   add_development_options(*command, options->rules, options->min_cells);
   command->add_flag("--overwrite", options->overwrite, "Replace files that exist");
   command->add_flag("--json", options->json, "Print one JSON object per step instead of a table");
+  command->add_flag("--check-links", options->check_links,
+                    "For debugging: triangulate anew at every renewal of the cells' neighbours, "
+                    "and fail at the first link that differs");
   command->callback([options] { grow_command(*options); });
 }
 

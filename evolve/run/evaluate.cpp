@@ -4,16 +4,27 @@
 
 #include <algorithm>
 #include <bit>
+#include <stdexcept>
 
 #include "core/development.h"
 #include "core/extract_body.h"
 #include "core/locomotion.h"
+#include "evolve/files/genome_file.h"
 #include "evolve/run/stopwatch.h"
 
 namespace metamorph::evolve {
 namespace {
 
 std::ptrdiff_t signed_size(const auto& list) { return static_cast<std::ptrdiff_t>(list.size()); }
+
+void count_links(const core::LinkCheck& check, const Genome& genome, CheckedLinks& total) {
+  if (!check.ok()) {
+    throw std::runtime_error(difference_text(check) + "; the genome:\n" + genome_text(genome));
+  }
+  ++total.developments;
+  total.renewals += check.renewals;
+  total.links += check.links;
+}
 
 }  // namespace
 
@@ -27,8 +38,10 @@ std::size_t Evaluator::GenomeHash::operator()(const Genome& genome) const {
   return hash;
 }
 
-Evaluator::Evaluator(const Experiment& experiment, int threads)
-    : experiment_(experiment), threads_(threads > 0 ? threads : omp_get_max_threads()) {}
+Evaluator::Evaluator(const Experiment& experiment, int threads, CheckedLinks* checked)
+    : experiment_(experiment),
+      threads_(threads > 0 ? threads : omp_get_max_threads()),
+      checked_(checked) {}
 
 std::vector<Evaluated> Evaluator::evaluate(std::span<const Genome> genomes,
                                            const std::vector<std::uint8_t>& run_trial,
@@ -78,8 +91,10 @@ std::vector<Evaluated> Evaluator::evaluate_new(std::span<const Genome* const> ge
     const auto n = static_cast<std::size_t>(i);
     networks[n] = compile(*genomes[n]);
   }
+  std::vector<core::LinkCheck> checks(checked_ != nullptr ? count : 0);
   const std::vector<std::vector<core::Embryo>> embryos =
-      core::develop(networks, experiment_.development, stages, threads_);
+      core::develop(networks, experiment_.development, stages, threads_, checks);
+  for (std::size_t i = 0; i < checks.size(); ++i) count_links(checks[i], *genomes[i], *checked_);
   seconds.develop += watch.lap();
 
   std::vector<core::Extraction> bodies(count * stage_count);

@@ -29,13 +29,19 @@ struct EvaluationSeconds {
   double develop = 0, extract = 0, locomotion = 0;
 };
 
+/// What a check of links has compared (core/link_check.h).
+struct CheckedLinks {
+  std::int64_t developments = 0, renewals = 0, links = 0;
+};
+
 /// Evaluates generations: genomes to networks, embryos, bodies, outcomes, each step one batch. A
 /// genome that was in the previous call with the same trials (an elite) keeps its result; as a
 /// result depends on genome and experiment alone, this changes no bit.
 class Evaluator {
  public:
-  /// The experiment must outlive the evaluator. `threads` 0: all.
-  Evaluator(const Experiment& experiment, int threads);
+  /// The experiment must outlive the evaluator. `threads` 0: all. With `checked` every development
+  /// is checked, counted there, and a difference thrown as std::runtime_error.
+  Evaluator(const Experiment& experiment, int threads, CheckedLinks* checked = nullptr);
 
   /// Evaluates the trials t with run_trial[t] != 0, and develops no further than they need.
   std::vector<Evaluated> evaluate(std::span<const Genome> genomes,
@@ -56,6 +62,7 @@ class Evaluator {
 
   const Experiment& experiment_;
   int threads_;
+  CheckedLinks* checked_;
   std::unordered_map<Genome, Evaluated, GenomeHash> previous_;
   std::vector<std::uint8_t> previous_trials_;
 };

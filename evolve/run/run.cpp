@@ -80,7 +80,7 @@ std::vector<std::uint8_t> trials_to_run(const Experiment& experiment, int genera
 RunSummary run(Record& record, const RunOptions& options) {
   const Experiment experiment = record.experiment();
   Checkpoint state = record.checkpoint();
-  Evaluator evaluator(experiment, options.threads);
+  Evaluator evaluator(experiment, options.threads, options.checked_links);
   RunSummary summary;
   const RunStart start{experiment, record.directory(), state.population.generation};
   for (Reporter* reporter : options.reporters) reporter->started(start);

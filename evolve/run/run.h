@@ -3,15 +3,17 @@
 #include <functional>
 #include <vector>
 
+#include "evolve/run/evaluate.h"
 #include "evolve/run/record.h"
 #include "evolve/run/reporter.h"
 
 namespace metamorph::evolve {
 
 struct RunOptions {
-  int threads = 0;                   ///< 0: all
-  std::function<bool()> stop;        ///< asked after every generation; may be empty
-  std::vector<Reporter*> reporters;  ///< borrowed
+  int threads = 0;                        ///< 0: all
+  std::function<bool()> stop;             ///< asked after every generation; may be empty
+  std::vector<Reporter*> reporters;       ///< borrowed
+  CheckedLinks* checked_links = nullptr;  ///< see Evaluator; changes nothing in the run
 };
 
 /// Evolves from the record's checkpoint to the experiment's last generation: evaluate, score,

@@ -144,6 +144,18 @@ TEST_F(Program, GrowWritesTheStepsAskedFor) {
   EXPECT_THAT(tests::text_of(here() / "row" / "development.svg"), HasSubstr("<svg"));
 }
 
+TEST_F(Program, GrowChecksLinks) {
+  // A row of n cells has n - 1 links. Neighbours are renewed at every tenth step and after births:
+  // a cell in each of the 4 updates, at steps 0, 30, 60 and 90. The end is a renewal, too:
+  // (0 + 3 * 1) + (1 + 3 * 2) + (2 + 3 * 3) + (3 + 3 * 4) + 4 links.
+  const auto result = run("grow row.json --check-links --steps-of-development 120 --at 120");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out,
+              HasSubstr("\n40 links at 17 renewals: all as a full triangulation has them\n"));
+  EXPECT_THAT(run("grow row.json --out unchecked --steps-of-development 120").out,
+              ::testing::Not(HasSubstr("renewals")));
+}
+
 TEST_F(Program, GrowReplacesOnlyWhenTold) {
   const std::string grow = "grow dead.json --out d --steps-of-development 60 --at 60";
   EXPECT_EQ(run(grow).exit_code, 0);

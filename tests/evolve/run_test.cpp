@@ -74,6 +74,20 @@ TEST(Run, ThreadsChangeNoBit) {
   }
 }
 
+TEST(Run, CheckingLinksChangesNoBit) {
+  const TemporaryDirectory directory;
+  const Experiment e = tiny_experiment(SearchKind::progressive, 3);
+  run_whole(directory.path() / "unchecked", e);
+  Record record(directory.path() / "checked", e, 1);
+  CheckedLinks checked;
+  run(record, {2, {}, {}, &checked});
+  EXPECT_EQ(contents(directory.path() / "unchecked"), contents(directory.path() / "checked"));
+  // Elites keep their results: somewhat fewer developments than individuals.
+  EXPECT_GT(checked.developments, 2 * 12);
+  EXPECT_GT(checked.renewals, checked.developments);
+  EXPECT_GT(checked.links, checked.renewals);
+}
+
 TEST(Run, SeedsGiveOtherRuns) {
   const TemporaryDirectory directory;
   run_whole(directory.path() / "a", tiny_experiment(SearchKind::simple, 2, 1));
