@@ -111,6 +111,27 @@ inline core::Body ring_body(int inner, int outer) {
   return lattice_body(points);
 }
 
+/// Two holes that touch in one node, whose ring of triangles falls into two fans.
+inline core::Body pinched_body() {
+  std::set<LatticePoint> points;
+  for (int u = -4; u <= 4; ++u)
+    for (int v = -4; v <= 4; ++v)
+      if (lattice_square({u, v}) <= 12) points.insert({u, v});
+  points.erase({-1, 0});
+  points.erase({1, 0});
+  return lattice_body(points);
+}
+
+/// A C of lattice points whose jaws can snap together.
+inline core::Body jaws_body() {
+  std::set<LatticePoint> points;
+  for (int v = 0; v < 8; ++v)
+    for (int u = -4; u < 8; ++u)
+      if (2 * u + v >= 0 && 2 * u + v <= 15 && (v < 2 || v > 5 || 2 * u + v <= 3))
+        points.insert({u, v});
+  return lattice_body(points);
+}
+
 /// A random compact body of exactly `nodes` >= 3 nodes without holes or pinches, as extraction
 /// gives them: grown on the lattice node by node, every coordinate then moved by up to `jitter` d
 /// (at most 0.15, which leaves every triangle counter-clockwise), random periods in [30, 120] and

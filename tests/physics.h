@@ -40,10 +40,25 @@ inline core::Scene lasting(core::Scene scene, double duration) {
   return scene;
 }
 
+/// The scene with contacts of the body with itself everywhere: what approaches by less than its
+/// distance at rest repels.
+inline core::Scene crowded(core::Scene scene) {
+  scene.collision_gap = 1.8;
+  return scene;
+}
+
 inline double mean(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += value;
   return sum / static_cast<double>(values.size());
+}
+
+/// Pairs that two lists put in another order.
+inline int swapped_pairs(const std::vector<double>& a, const std::vector<double>& b) {
+  int count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) count += (a[i] - a[j]) * (b[i] - b[j]) < 0;
+  return count;
 }
 
 /// Root of the mean squared distance of two sets of points.

@@ -79,6 +79,13 @@ TEST_P(Invariance, OfPlaceInWater) {
                      rounding(scene)));
 }
 
+TEST_P(Invariance, OfAFarPlaceInWater) {
+  // A thousand d away, farther than any body gets, places round a thousand times as coarsely.
+  const core::Scene scene = lasting(core::water_scene(), 270);
+  EXPECT_TRUE(within(difference(GetParam(), blob_body(40, 1), scene, {.u = 1000, .v = -1000}),
+                     250 * rounding(scene)));
+}
+
 TEST_P(Invariance, OfDirectionInWater) {
   const core::Scene scene = lasting(core::water_scene(), 270);
   const double angle = 37 * std::numbers::pi / 180;
