@@ -35,6 +35,11 @@ void print_json(const RunReader& run, const Experiment& experiment) {
   }
   json["status"] = run.status_counts();
   for (const auto& [phase, seconds] : run.phase_seconds()) json["seconds"][phase] = seconds;
+  const EvaluationWork work = run.work();
+  json["work"] = {{"individuals", work.individuals},
+                  {"developed", work.developed},
+                  {"bodies", work.bodies},
+                  {"simulated", work.simulated}};
   for (const auto& [key, value] : run.last_session()) json["session"][key] = value;
   fmt::print("{}\n", json.dump());
 }
@@ -65,6 +70,9 @@ void print_text(const RunReader& run, const Experiment& experiment) {
         fmt::print(", {} {} ({:.1f} %)", found->first, found->second,
                    100.0 * static_cast<double>(found->second) / static_cast<double>(all));
       }
+    }
+    if (const std::string saved = saved_text(run.work()); !saved.empty()) {
+      fmt::print("\nknown        {}", saved);
     }
     double total = 0;
     for (const auto& [phase, seconds] : run.phase_seconds()) total += seconds;

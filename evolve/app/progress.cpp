@@ -75,6 +75,9 @@ void Progress::finished(const RunSummary& summary) {
                           100 * values[i] / total);
   }
   fmt::print(stderr, "{} of computing: {}\n", duration_text(total), phases);
+  if (const std::string saved = saved_text(summary.work); !saved.empty()) {
+    fmt::print(stderr, "known already: {}\n", saved);
+  }
   std::string statuses;
   for (const core::Status status : core::all_statuses) {
     const int count = summary.statuses[static_cast<std::size_t>(status)];

@@ -11,4 +11,16 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
 }
 
+std::string saved_text(const EvaluationWork& work) {
+  std::string text;
+  const auto add = [&](std::int64_t all, std::int64_t done, const char* what) {
+    if (all == 0) return;
+    text += fmt::format("{}{} of {} {} ({:.1f} %)", text.empty() ? "" : ", ", all - done, all, what,
+                        100.0 * static_cast<double>(all - done) / static_cast<double>(all));
+  };
+  add(work.individuals, work.developed, "developments");
+  add(work.bodies, work.simulated, "simulations");
+  return text;
+}
+
 }  // namespace metamorph::evolve

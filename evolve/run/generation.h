@@ -32,6 +32,7 @@ struct GenerationResult {
   std::vector<double> eq6;             ///< [population] geometric mean of the distances
   std::size_t champion = 0;            ///< position of the best by eq 6
   std::size_t archive_before = 0;      ///< entries of the archive before this generation
+  EvaluationWork work;
 };
 
 /// Evaluations by status, for one trial or for all (trial -1); trials that were not run are left

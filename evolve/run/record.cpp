@@ -66,6 +66,7 @@ Record::Record(const std::filesystem::path& directory, const Experiment& experim
   database_->run("PRAGMA journal_mode = WAL");
   Transaction transaction(*database_);
   database_->run(record_schema);
+  database_->run(work_schema);
   Statement insert(*database_, "INSERT INTO run VALUES (?, ?)");
   insert.bind("format").bind(record_format).run();
   insert.bind("experiment").bind(experiment.name).run();
@@ -114,6 +115,7 @@ std::unique_ptr<Record> Record::resume(const std::filesystem::path& directory, i
   }
   database.run("PRAGMA journal_mode = WAL");
   Transaction transaction(database);
+  database.run(work_schema);
   record->start_session(threads);
   transaction.commit();
   return record;
@@ -200,6 +202,9 @@ void Record::write(const PopulationState& population, const GenerationResult& re
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {  // the last phase is this one
     timing.bind(result.generation).bind(PhaseSeconds::names[i]).bind(values[i]).run();
   }
+  Statement work(*database_, "INSERT INTO work VALUES (?, ?, ?, ?, ?)");
+  work.bind(result.generation).bind(result.work.individuals).bind(result.work.developed);
+  work.bind(result.work.bodies).bind(result.work.simulated).run();
   Statement checkpoint(*database_, "INSERT OR REPLACE INTO checkpoint VALUES (1, ?, ?)");
   checkpoint.bind(next.population.generation).bind_blob(encode(next)).run();
   transaction.commit();

@@ -5,8 +5,8 @@ namespace metamorph::evolve {
 inline constexpr const char* record_format = "metamorph-run/1";
 inline constexpr const char* record_file = "run.db";
 
-/// The tables of run.db. What depends on wall-clock or machine stands in `sessions` and `timings`
-/// alone: every other table is the same, bit for bit, for one configuration.
+/// The tables of run.db. What depends on wall-clock, machine or interruptions stands in `sessions`,
+/// `timings` and `work` alone: every other table is the same, bit for bit, for one configuration.
 ///
 /// Units: distances and positions in cell diameters d; times in time units, steps as named.
 inline constexpr const char* record_schema = R"sql(
@@ -69,6 +69,16 @@ CREATE VIEW metamorphosis AS
   JOIN outcomes l ON l.generation = a.generation AND l.position = a.position AND l.trial = 0
   JOIN trials tl ON tl.trial = 0
   JOIN trials ta ON ta.trial = a.trial AND ta.stage > tl.stage;
+)sql";
+
+/// Apart, because records of earlier versions lack it until they are resumed.
+///
+/// Individuals of a generation and their bodies in scenes: how many there were to develop and to
+/// simulate, and how many of them were; the others were known already. After a resume less is
+/// known.
+inline constexpr const char* work_schema = R"sql(
+CREATE TABLE IF NOT EXISTS work (generation INTEGER PRIMARY KEY, individuals INTEGER NOT NULL,
+  developed INTEGER NOT NULL, bodies INTEGER NOT NULL, simulated INTEGER NOT NULL);
 )sql";
 
 }  // namespace metamorph::evolve

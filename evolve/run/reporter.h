@@ -32,6 +32,7 @@ struct RunSummary {
   bool interrupted = false;  ///< stopped before the last generation
   BestEver best;
   PhaseSeconds seconds;                            ///< of this session
+  EvaluationWork work;                             ///< of this session
   std::array<int, core::status_count> statuses{};  ///< of this session
 };
 

@@ -33,6 +33,7 @@ GenerationResult run_generation(const Experiment& experiment, const PopulationSt
   result.archive_before = search.archive.size();
   result.individuals = evaluator.evaluate(
       population.genomes, trials_to_run(experiment, population.generation), seconds.evaluation);
+  result.work = evaluator.work();
   Stopwatch watch;
   std::vector<Evaluation> evaluations;
   std::vector<std::int64_t> ids;
@@ -108,6 +109,7 @@ RunSummary run(Record& record, const RunOptions& options) {
     const auto counts = count_statuses(result);
     for (std::size_t s = 0; s < counts.size(); ++s) summary.statuses[s] += counts[s];
     summary.seconds += seconds;
+    summary.work += result.work;
     const GenerationReport report{experiment, population,
                                   result,     state.best,
                                   improved,   std::accumulate(counts.begin(), counts.end(), 0),

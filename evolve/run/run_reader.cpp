@@ -119,6 +119,15 @@ std::vector<std::pair<std::string, std::string>> RunReader::last_session() const
   return facts;
 }
 
+EvaluationWork RunReader::work() const {
+  const std::vector<std::string> known = tables();
+  if (std::find(known.begin(), known.end(), "work") == known.end()) return {};
+  Statement sum(*database_,
+                "SELECT sum(individuals), sum(developed), sum(bodies), sum(simulated) FROM work");
+  sum.step();
+  return {sum.integer(0), sum.integer(1), sum.integer(2), sum.integer(3)};
+}
+
 std::vector<std::string> RunReader::tables() const {
   Statement select(*database_,
                    "SELECT name FROM sqlite_master WHERE type IN ('table', 'view') AND name != "

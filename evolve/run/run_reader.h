@@ -11,6 +11,7 @@
 
 #include "evolve/experiment/experiment.h"
 #include "evolve/genetics/genome.h"
+#include "evolve/run/evaluate.h"
 
 namespace metamorph::evolve {
 
@@ -41,6 +42,8 @@ class RunReader {
   std::map<std::string, std::int64_t> status_counts() const;              ///< of the whole run
   std::vector<std::pair<std::string, double>> phase_seconds() const;      ///< of the whole run
   std::vector<std::pair<std::string, std::string>> last_session() const;  ///< key, value
+  /// Of all generations whose work was recorded; zeros for records of earlier versions.
+  EvaluationWork work() const;
 
   std::vector<std::string> tables() const;  ///< tables and views
   /// A table as CSV: a header line, then the rows in order of their key; numbers read back to the

@@ -40,6 +40,7 @@ struct Example {
     result.eq6 = {1.0 / 3, 0.0};
     result.champion = 0;
     result.archive_before = 0;
+    result.work = {2, 1, 4, 3};
     result.individuals.resize(2);
     double value = 100;
     for (Evaluated& one : result.individuals) {
@@ -173,6 +174,10 @@ TEST(Record, EveryFieldOfAGenerationComesBack) {
     EXPECT_GT(phases["record"], 0);  // measured by the record itself
   }
   const RunReader reader(path);
+  EXPECT_EQ(reader.work().individuals, 2);
+  EXPECT_EQ(reader.work().developed, 1);
+  EXPECT_EQ(reader.work().bodies, 4);
+  EXPECT_EQ(reader.work().simulated, 3);
   const Champion champion = reader.champion(0);
   EXPECT_EQ(champion.genome, x.population.genomes[0]);
   EXPECT_EQ(champion.individual, 10);

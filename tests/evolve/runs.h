@@ -37,7 +37,7 @@ inline evolve::Experiment tiny_experiment(evolve::SearchKind kind, int generatio
 }
 
 /// Every table that belongs to "the same bits", as text: numbers to the last digit, blobs in hex.
-/// Left out: what depends on wall-clock and machine.
+/// Left out: what depends on wall-clock, machine and interruptions.
 inline std::map<std::string, std::vector<std::string>> contents(
     const std::filesystem::path& directory) {
   evolve::Database database(directory / "run.db", evolve::Database::Mode::read);
@@ -45,7 +45,7 @@ inline std::map<std::string, std::vector<std::string>> contents(
   std::map<std::string, std::vector<std::string>> result;
   while (tables.step()) {
     const std::string table = tables.text(0);
-    if (table == "sessions" || table == "timings") continue;
+    if (table == "sessions" || table == "timings" || table == "work") continue;
     std::vector<std::string>& rows = result[table];
     evolve::Statement select(database, "SELECT * FROM " + table);
     while (select.step()) {
