@@ -79,16 +79,11 @@ template <class T>
 void add_opponents(const Body& body, const std::string& suffix, core::Precision precision) {
   add("library/" + suffix,
       [body, precision](benchmark::State& state) { library(state, body, precision); });
-  add("records/" + suffix,
-      [body](benchmark::State& state) { opponent<RingOpponent<T, Records>>(state, body, true); });
+  add("records/" + suffix, [body](benchmark::State& state) {
+    opponent<RingOpponent<T, TransposedRecords>>(state, body, true);
+  });
   add("floor/" + suffix, [body](benchmark::State& state) {
     opponent<RingOpponent<T, Contiguous>>(state, body, false);
-  });
-  add("floor-without-roots/" + suffix, [body](benchmark::State& state) {
-    opponent<RingOpponent<T, Contiguous, Parts::without_roots>>(state, body, false);
-  });
-  add("floor-own-periods/" + suffix, [body](benchmark::State& state) {
-    opponent<RingOpponent<T, Contiguous, Parts::own_periods>>(state, body, false);
   });
   add("lane-is-node-hardware-gathers/" + suffix, [body](benchmark::State& state) {
     opponent<RingOpponent<T, HardwareGather>>(state, body, true);

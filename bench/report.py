@@ -199,8 +199,6 @@ ARRANGEMENTS = [
     ("library", "the library: `simulate()`, packing and checks included"),
     ("records", "its step alone: lane = node, 16-byte records, loads and transposition"),
     ("floor", "floor: the same arithmetic, neighbours read from contiguous arrays"),
-    ("floor-without-roots", "floor without square root and division"),
-    ("floor-own-periods", "floor, every oscillator of its own period"),
     ("lane-is-node-hardware-gathers", "lane = node, hardware gathers"),
     ("scalar-tidy", "tidy scalar loop, arrays of structs"),
     ("scalar-plain-arrays", "scalar loop, plain arrays"),

@@ -51,10 +51,10 @@ struct BodyFault {
 /// All faults of a body: sizes, finite values, periods > 0, indices, coincident nodes (closer than
 /// 1e-3 d), orientation (every triangle counter-clockwise, with an area), rest lengths and rest
 /// areas below 1e-3 where they are not those of the nodes, isolated nodes, edges with overlapping
-/// or more than two triangles, more than one edge-connected component, springs other than the edges
-/// of the triangles. Empty if the body is sound. Where sizes or indices are wrong, what depends on
-/// them is not looked at. A pinch (a node that alone holds two parts of one component together)
-/// and a hole are no faults.
+/// or more than two triangles, triangles around a node beside a closed fan, more than one
+/// edge-connected component, springs other than the edges of the triangles. Empty if the body is
+/// sound. Where sizes or indices are wrong, what depends on them is not looked at. A pinch (a node
+/// that alone holds two parts of one component together) and a hole are no faults.
 std::vector<BodyFault> check(const Body& body);
 
 /// The status that a list of faults amounts to: the most basic of them, ok if there is none.

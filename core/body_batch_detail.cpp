@@ -80,7 +80,7 @@ BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, in
     extent.outline_edges = static_cast<int>(plan.rings.edge_other.size()) / 2;
     for (int g = 0; g < extent.groups; ++g) extent.slots += plan.group_max(g, &Rings::size);
     for (int g = 0; g < extent.outline_groups; ++g) {
-      extent.edge_slots += plan.group_max(g, &Rings::edges);
+      extent.edge_slots += plan.group_max(g, &Rings::inner_edges);
     }
     extent_[index] = extent;
     plans[index] = std::move(plan);
@@ -102,7 +102,7 @@ BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, in
   ring_begin_.resize(total.groups);
   ring_size_.resize(total.groups);
   ring_closed_.resize(total.groups);
-  before_.resize(lanes);
+  closing_area2_.assign(lanes, T(0));
   edge_begin_.resize(total.edge_groups);
   edge_size_.resize(total.edge_groups);
   neighbour_.resize(slots);
@@ -113,6 +113,8 @@ BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, in
   ring_per_step_.resize(slots);
   swing_sine_.assign(slots, T(0));
   swing_cosine_.assign(slots, T(0));
+  edge_to_first_.assign(total.edge_groups * width, T(0));
+  edge_to_last_.assign(total.edge_groups * width, T(0));
   edge_other_.resize(total.edge_slots * width);
   edge_present_.assign(total.edge_slots * width, T(0));
   inverse_mass_.assign(lanes, T(0));
@@ -161,6 +163,11 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
     rhythm.advance = fixed_turn<double>(scene.step / body.period.front());
   }
 
+  const auto pressed_area2 = [&](Index triangle) {
+    const double area = triangle >= 0 ? body.rest_area[at(triangle)] : 0;
+    return area < scene.min_pressure_area ? T(0) : static_cast<T>(2 * area);
+  };
+
   int slot = 0;
   for (int g = 0; g < extent.groups; ++g) {
     const std::size_t group = offset.groups + at(g);
@@ -171,9 +178,6 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
       const std::size_t here = (offset.groups * width) + lane;
       const bool real = lane < nodes;
       const auto node = real ? at(plan.order[lane]) : 0;
-      const Index before = real ? plan.rings.before[node] : -1;
-      before_[here] = kernels::record_offset<T>(before >= 0 ? plan.lane[at(before)] : lane);
-      if (before >= 0) ring_closed_[group] = 1;
       if (real) {
         node_of_lane_[here] = plan.order[lane];
         inverse_mass_[here] = T(1);
@@ -183,27 +187,28 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
                             T(0), T(0)};
       }
       const int size = real ? plan.rings.size(plan.order[lane]) : 0;
+      if (real && plan.rings.closing[node] >= 0) {
+        ring_closed_[group] = 1;
+        closing_area2_[here] = pressed_area2(plan.rings.closing[node]);
+      }
       for (int k = 0; k < ring_size_[group]; ++k) {
         const std::size_t place = (offset.slots + at(slot + k)) * width + at(l);
         if (k >= size) {
-          neighbour_[place] = kernels::record_offset<T>(lane);
+          // Beyond the ring its last neighbour again, without spring: the vector before stays.
+          neighbour_[place] = k > 0 ? neighbour_[place - width] : kernels::record_offset<T>(lane);
           continue;
         }
         const RingSlot& ring = plan.rings.slots[at(plan.rings.begin[node] + k)];
         neighbour_[place] = kernels::record_offset<T>(plan.lane[at(ring.neighbour)]);
         ring_start_[place] = start[at(ring.neighbour)];
         ring_per_step_[place] = per_step[at(ring.neighbour)];
-        if (ring.spring >= 0) {
-          spring_[place] = T(1);
-          const double rest_length = body.rest_length[at(ring.spring)];
-          const kernels::Phasor &own = phasor[node], &other = phasor[at(ring.neighbour)];
-          rest_length_[place] = static_cast<T>(rest_length);
-          swing_sine_[place] = static_cast<T>(rest_length * (own.cosine + other.cosine));
-          swing_cosine_[place] = static_cast<T>(rest_length * (own.sine + other.sine));
-        }
-        if (ring.triangle >= 0 && body.rest_area[at(ring.triangle)] >= scene.min_pressure_area) {
-          rest_area2_[place] = static_cast<T>(2 * body.rest_area[at(ring.triangle)]);
-        }
+        const double rest_length = body.rest_length[at(ring.spring)];
+        const kernels::Phasor &own = phasor[node], &other = phasor[at(ring.neighbour)];
+        spring_[place] = T(1);
+        rest_length_[place] = static_cast<T>(rest_length);
+        swing_sine_[place] = static_cast<T>(rest_length * (own.cosine + other.cosine));
+        swing_cosine_[place] = static_cast<T>(rest_length * (own.sine + other.sine));
+        rest_area2_[place] = pressed_area2(ring.triangle);
       }
     }
     slot += ring_size_[group];
@@ -213,17 +218,21 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
   for (int g = 0; g < extent.outline_groups; ++g) {
     const std::size_t group = offset.edge_groups + at(g);
     edge_begin_[group] = edge_slot;
-    edge_size_[group] = plan.group_max(g, &Rings::edges);
+    edge_size_[group] = plan.group_max(g, &Rings::inner_edges);
     for (int l = 0; l < width; ++l) {
       const auto lane = static_cast<std::uint32_t>(g * width + l);
       const Index node = lane < nodes ? plan.order[lane] : -1;
-      const int size = node >= 0 ? plan.rings.edges(node) : 0;
+      if (node >= 0 && plan.rings.edges(node) > 0) {
+        edge_to_first_[group * width + at(l)] = T(1);
+        edge_to_last_[group * width + at(l)] = T(1);
+      }
+      const int size = node >= 0 ? plan.rings.inner_edges(node) : 0;
       for (int e = 0; e < edge_size_[group]; ++e) {
         const std::size_t place = (offset.edge_slots + at(edge_slot + e)) * width + at(l);
         edge_other_[place] = kernels::record_offset<T>(lane);
         if (e < size) {
           edge_other_[place] = kernels::record_offset<T>(
-              plan.lane[at(plan.rings.edge_other[at(plan.rings.edge_begin[at(node)] + e)])]);
+              plan.lane[at(plan.rings.edge_other[at(plan.rings.edge_begin[at(node)] + 1 + e)])]);
           edge_present_[place] = T(1);
         }
       }
@@ -250,7 +259,7 @@ kernels::BodyView<T> BodyBatch<T>::view(std::size_t i) {
   view.ring_begin = ring_begin_.data() + offset.groups;
   view.ring_size = ring_size_.data() + offset.groups;
   view.ring_closed = ring_closed_.data() + offset.groups;
-  view.before = before_.data() + lanes;
+  view.closing_area2 = closing_area2_.data() + lanes;
   view.neighbour = neighbour_.data() + slots;
   view.rest_length = rest_length_.data() + slots;
   view.spring = spring_.data() + slots;
@@ -264,6 +273,8 @@ kernels::BodyView<T> BodyBatch<T>::view(std::size_t i) {
   view.inverse_mass = inverse_mass_.data() + lanes;
   view.edge_begin = edge_begin_.data() + offset.edge_groups;
   view.edge_size = edge_size_.data() + offset.edge_groups;
+  view.edge_to_first = edge_to_first_.data() + offset.edge_groups * width;
+  view.edge_to_last = edge_to_last_.data() + offset.edge_groups * width;
   view.edge_other = edge_other_.data() + offset.edge_slots * width;
   view.edge_present = edge_present_.data() + offset.edge_slots * width;
   view.now = records_a_.data() + lanes;

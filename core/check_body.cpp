@@ -33,6 +33,27 @@ std::string element(const char* field, std::size_t index) {
   return std::string(field).append("[").append(std::to_string(index)).append("]");
 }
 
+/// Which of a number of things hang together.
+class Parts {
+ public:
+  explicit Parts(std::size_t things) : part_(things) {
+    std::iota(part_.begin(), part_.end(), std::size_t{0});
+  }
+  void join(std::size_t a, std::size_t b) {
+    a = first(a);
+    b = first(b);
+    part_[std::max(a, b)] = std::min(a, b);
+  }
+  bool is_first(std::size_t thing) const { return part_[thing] == thing; }
+
+ private:
+  std::size_t first(std::size_t thing) {
+    while (part_[thing] != thing) thing = part_[thing] = part_[part_[thing]];
+    return thing;
+  }
+  std::vector<std::size_t> part_;
+};
+
 /// Collects the faults of one body. Every check assumes what the checks before it made sure.
 class Checker {
  public:
@@ -46,7 +67,10 @@ class Checker {
     check_values();
     if (!indices_good) return std::move(faults_);
     check_springs();
-    if (check_mesh()) check_parts();
+    if (check_mesh()) {
+      check_parts();
+      check_fans();
+    }
     if (positions_good_) check_geometry();
     return std::move(faults_);
   }
@@ -188,27 +212,56 @@ class Checker {
       }
     }
 
-    std::vector<std::size_t> part(body_.triangles.size());
-    std::iota(part.begin(), part.end(), std::size_t{0});
-    const auto root = [&](std::size_t t) {
-      while (part[t] != t) t = part[t] = part[part[t]];
-      return t;
-    };
+    Parts triangles(body_.triangles.size());
     for (std::size_t u = 0; u + 1 < uses_.size(); ++u) {
       if (!uses_[u].same_edge(uses_[u + 1])) continue;
-      const std::size_t a = root(at(uses_[u].triangle));
-      const std::size_t b = root(at(uses_[u + 1].triangle));
-      part[std::max(a, b)] = std::min(a, b);
+      triangles.join(at(uses_[u].triangle), at(uses_[u + 1].triangle));
     }
     std::size_t parts = 0;
     std::size_t second = 0;
-    for (std::size_t t = 0; t < part.size(); ++t) {
-      if (part[t] == t && ++parts == 2) second = t;
+    for (std::size_t t = 0; t < body_.triangles.size(); ++t) {
+      if (triangles.is_first(t) && ++parts == 2) second = t;
     }
     if (parts > 1) {
       fault(Status::bad_topology, element("triangles", second),
             "in the second of " + std::to_string(parts) + " parts that share no edge",
             "one edge-connected part");
+    }
+  }
+
+  /// Around a node lies one closed fan of triangles, or open ones: beside a closed fan there is no
+  /// room for another.
+  void check_fans() {
+    Parts corners(3 * body_.triangles.size());
+    std::vector<int> fans(body_.x.size()), edges(body_.x.size());
+    const auto corner = [&](const EdgeUse& use, Index node) {
+      const auto& triangle = body_.triangles[at(use.triangle)];
+      const auto place = std::find(triangle.begin(), triangle.end(), node) - triangle.begin();
+      return 3 * at(use.triangle) + static_cast<std::size_t>(place);
+    };
+    for (std::size_t u = 0, next = 0; u < uses_.size(); u = next) {
+      next = end_of_edge(uses_, u);
+      for (const Index node : {uses_[u].low, uses_[u].high}) {
+        if (next - u == 2) {
+          corners.join(corner(uses_[u], node), corner(uses_[u + 1], node));
+        } else {
+          ++edges[at(node)];
+        }
+      }
+    }
+    for (std::size_t t = 0; t < body_.triangles.size(); ++t) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        fans[at(body_.triangles[t][c])] += corners.is_first(3 * t + c) ? 1 : 0;
+      }
+    }
+    for (std::size_t n = 0; n < fans.size(); ++n) {
+      const int open = edges[n] / 2;  // each ends in two outline edges
+      if (fans[n] > std::max(open, 1)) {
+        fault(Status::bad_topology, element("nodes", n),
+              std::to_string(fans[n]) + " fans of triangles around it, " +
+                  std::to_string(fans[n] - open) + " of them closed",
+              "one closed fan, or open ones only");
+      }
     }
   }
 

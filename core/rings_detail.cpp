@@ -60,31 +60,24 @@ Rings make_rings(const Body& body) {
   rings.begin.push_back(0);
   rings.edge_begin.push_back(0);
   std::vector<Corner> fan;
-  std::vector<SpringEnd> free_springs;
   for (Index node = 0; node < nodes; ++node) {
     const auto at = static_cast<std::size_t>(node);
     fan.assign(corners.items.begin() + corners.begin[at],
                corners.items.begin() + corners.begin[at + 1]);
-    free_springs.assign(ends.items.begin() + ends.begin[at],
-                        ends.items.begin() + ends.begin[at + 1]);
     std::sort(fan.begin(), fan.end(),
               [](const Corner& a, const Corner& b) { return a.next < b.next; });
-    std::sort(free_springs.begin(), free_springs.end(),
-              [](const SpringEnd& a, const SpringEnd& b) { return a.other < b.other; });
-    const auto take_spring = [&](Index other) {
-      const auto found = std::find_if(free_springs.begin(), free_springs.end(),
-                                      [&](const SpringEnd& end) { return end.other == other; });
-      if (found == free_springs.end()) return Index{-1};
-      const Index spring = found->spring;
-      free_springs.erase(found);
-      return spring;
+    const auto spring_to = [&](Index other) {
+      // Springs ascend, hence so do their other ends.
+      return std::lower_bound(ends.items.begin() + ends.begin[at],
+                              ends.items.begin() + ends.begin[at + 1], other,
+                              [](const SpringEnd& end, Index value) { return end.other < value; })
+          ->spring;
     };
 
-    const std::size_t node_begin = rings.slots.size();
-    rings.before.push_back(-1);
+    rings.closing.push_back(-1);
     while (!fan.empty()) {
       // An open fan starts at a neighbour that no triangle of this node ends at; if there is none,
-      // what is left are closed fans.
+      // the ring is closed.
       auto start = std::find_if(fan.begin(), fan.end(), [&](const Corner& corner) {
         return std::none_of(fan.begin(), fan.end(),
                             [&](const Corner& other) { return other.after == corner.next; });
@@ -92,8 +85,7 @@ Rings make_rings(const Body& body) {
       const bool open = start != fan.end();
       if (!open) start = fan.begin();
       const Index first = start->next;
-      const std::size_t first_slot = rings.slots.size();
-      rings.slots.push_back({first, take_spring(first), -1});
+      rings.slots.push_back({first, spring_to(first), -1});
       if (open) rings.edge_other.push_back(first);
       Index last = first;
       for (auto corner = start; corner != fan.end();
@@ -101,20 +93,15 @@ Rings make_rings(const Body& body) {
                                  [&](const Corner& other) { return other.next == last; })) {
         const Index triangle = corner->triangle, after = corner->after;
         fan.erase(corner);
-        if (after != first) {
-          rings.slots.push_back({after, take_spring(after), triangle});
-        } else if (first_slot == node_begin) {
-          rings.before.back() = last;
-          rings.slots[first_slot].triangle = triangle;
-        } else {
-          rings.slots.push_back({first, -1, triangle});
+        if (after == first) {
+          rings.closing.back() = triangle;
+          break;
         }
+        rings.slots.push_back({after, spring_to(after), triangle});
         last = after;
-        if (last == first) break;
       }
       if (open) rings.edge_other.push_back(last);
     }
-    for (const SpringEnd& end : free_springs) rings.slots.push_back({end.other, end.spring, -1});
     rings.begin.push_back(static_cast<int>(rings.slots.size()));
     rings.edge_begin.push_back(static_cast<int>(rings.edge_other.size()));
   }

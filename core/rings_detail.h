@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -10,7 +11,7 @@ namespace metamorph::core {
 /// One place in a node's ring (see kernels/body_view.h).
 struct RingSlot {
   Index neighbour;
-  Index spring;    ///< index into Body::springs; -1 if the slot holds none
+  Index spring;    ///< index into Body::springs
   Index triangle;  ///< triangle between this slot and the one before; -1 if none
 };
 
@@ -18,9 +19,10 @@ struct RingSlot {
 struct Rings {
   std::vector<int> begin;  ///< [nodes + 1] first slot of a node
   std::vector<RingSlot> slots;
-  std::vector<Index> before;  ///< [nodes] neighbour before the first slot of a closed ring; else -1
+  std::vector<Index> closing;  ///< [nodes] triangle of a closed ring's last and first slot; else -1
   std::vector<int> edge_begin;    ///< [nodes + 1] first outline edge of a node
-  std::vector<Index> edge_other;  ///< the other end of an outline edge
+  std::vector<Index> edge_other;  ///< other end of an outline edge; of a node's, the first leads to
+                                  ///< its ring's first neighbour, the last to its last
 
   int size(Index node) const {
     return begin[static_cast<std::size_t>(node) + 1] - begin[static_cast<std::size_t>(node)];
@@ -29,13 +31,13 @@ struct Rings {
     return edge_begin[static_cast<std::size_t>(node) + 1] -
            edge_begin[static_cast<std::size_t>(node)];
   }
+  /// Edges that are neither the first nor the last.
+  int inner_edges(Index node) const { return std::max(0, edges(node) - 2); }
 };
 
-/// Rings of a sound body, counter-clockwise. A closed ring starts at its lowest neighbour, whose
-/// slot holds the triangle to the last one (`before`). Otherwise there is one open fan after the
-/// other (several at a pinch), by their first neighbour, each from its first edge. (A closed fan
-/// beside others, which only a file can hold, repeats its first neighbour without spring.) Springs
-/// on no triangle follow in slots of their own.
+/// Rings of a sound body, counter-clockwise. A closed ring starts at its lowest neighbour; the
+/// triangle between its last slot and the first is `closing`. Otherwise there is one open fan after
+/// the other (several at a pinch), by their first neighbour, each from its first edge.
 Rings make_rings(const Body& body);
 
 }  // namespace metamorph::core

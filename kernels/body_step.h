@@ -65,6 +65,17 @@ struct StepExtremes {
   Lanes<T> not_finite{T(0)};      ///< not a number once a velocity was infinite or none
 };
 
+/// The state of a body's nodes as records, read from `now` and written to `next`.
+template <class T>
+struct Records {
+  const BodyView<T>& body;
+
+  NodePack<T> own(int lane) const { return load(body.now + lane); }
+  NodePack<T> neighbour(int slot) const { return gather(body.now, body.neighbour + slot); }
+  NodePack<T> edge_end(int slot) const { return gather(body.now, body.edge_other + slot); }
+  void put(int lane, const NodePack<T>& pack) const { store(pack, body.next + lane); }
+};
+
 /// One step of every node: actuation, springs, pressure, drag or ground, kick and drift in one
 /// pass.
 ///
@@ -72,9 +83,11 @@ struct StepExtremes {
 /// velocity extrapolated there, v_n + h/2 a_(n-1); the kick gives v_(n+1) = v_n + h a_n, and the
 /// next midpoint is x_mid + h v_(n+1): two half drifts in one. With `extrapolate` 0 and records
 /// that hold (x_n, v_n) the same loop is symplectic Euler. `n` counts steps for the oscillators.
-template <class T, Terms terms>
+///
+/// `state` is where nodes are read and written, see Records.
+template <class T, Terms terms, class State>
 inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Turn<T> n,
-                      StepExtremes<T>& seen) {
+                      StepExtremes<T>& seen, State&& state) {
   using Pack = Lanes<T>;
   const Pack zero(T(0)), one(T(1)), tiny(T(1e-12));
   const Pack stiffness(c.stiffness), damping(c.damping), half_pressure_coefficient(c.pressure / 2);
@@ -86,7 +99,7 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
   StepExtremes<T> extremes = seen;  // a copy stays in registers
   for (int g = 0; g < body.groups; ++g) {
     const int node_base = lane_index<T>(g);
-    const NodePack<T> self = load(body.now + node_base);
+    const NodePack<T> self = state.own(node_base);
     Pack fx = zero, fy = zero;
     if constexpr (terms.extra) {
       fx = Pack::load(body.extra_fx + node_base);
@@ -98,66 +111,87 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
       own = fma(amplitude, oscillation(body.node_oscillator, node_base, n), one);
     }
 
-    Pack before_dx = zero, before_dy = zero;
-    if constexpr (terms.pressure) {
-      if (body.ring_closed[g] != 0) {
-        const NodePack<T> before = gather(body.now, body.before + node_base);
-        before_dx = before.x - self.x;
-        before_dy = before.y - self.y;
-      }
-    }
-    for (int k = 0; k < body.ring_size[g]; ++k) {
-      const int base = lane_index<T>(body.ring_begin[g] + k);
-      const NodePack<T> other = gather(body.now, body.neighbour + base);
-      const Pack dx = other.x - self.x, dy = other.y - self.y;
-      const Pack length = sqrt(max(fma(dx, dx, dy * dy), tiny));
-
-      Pack inverse_length, ratio, push = zero;
-      if constexpr (terms.pressure) {
-        // One division serves both 1/l and S0/S.
-        const Pack rest_area2 = Pack::load(body.rest_area2 + base);
-        const auto has_triangle = rest_area2 > zero;
-        const Pack area2 = select(has_triangle, fma(before_dx, dy, -(before_dy * dx)), one);
-        const Pack inverse = one / (length * area2);
-        inverse_length = inverse * area2;
-        ratio = rest_area2 * (inverse * length);
-        push = select(has_triangle, half_pressure(ratio, half_pressure_coefficient), zero);
-        extremes.largest_ratio = max(ratio, extremes.largest_ratio);
-        extremes.smallest_ratio = min(ratio, extremes.smallest_ratio);
-      } else {
-        inverse_length = one / length;
-      }
-
-      Pack rest_length = Pack::load(body.rest_length + base);
+    const auto pull = [&](const NodePack<T>& other, Pack dx, Pack dy, Pack length,
+                          Pack inverse_length, int slot) {
+      Pack rest_length = Pack::load(body.rest_length + slot);
       if constexpr (terms.actuation == Actuation::own_period) {
-        rest_length *= fma(amplitude, oscillation(body.ring_oscillator, base, n), own);
+        rest_length *= fma(amplitude, oscillation(body.ring_oscillator, slot, n), own);
       } else if constexpr (terms.actuation == Actuation::one_period) {
-        rest_length = fma(swing_sine, Pack::load(body.swing_sine + base), rest_length);
-        rest_length = fma(swing_cosine, Pack::load(body.swing_cosine + base), rest_length);
+        rest_length = fma(swing_sine, Pack::load(body.swing_sine + slot), rest_length);
+        rest_length = fma(swing_cosine, Pack::load(body.swing_cosine + slot), rest_length);
       }
       const Pack tension =
           spring_tension<T>(dx, dy, other.vx - self.vx, other.vy - self.vy, length, inverse_length,
-                            rest_length, stiffness, damping, Pack::load(body.spring + base));
+                            rest_length, stiffness, damping, Pack::load(body.spring + slot));
+      fx = fma(tension, dx, fx);
+      fy = fma(tension, dy, fy);
+    };
+    // The triangle of this node and the ends of two vectors from it, counter-clockwise.
+    const auto press = [&](Pack before_dx, Pack before_dy, Pack dx, Pack dy, LaneMask<T> present,
+                           Pack ratio) {
+      const Pack push = select(present, half_pressure(ratio, half_pressure_coefficient), zero);
+      extremes.largest_ratio = max(ratio, extremes.largest_ratio);
+      extremes.smallest_ratio = min(ratio, extremes.smallest_ratio);
+      fx = fma(push, before_dy - dy, fx);
+      fy = fma(push, dx - before_dx, fy);
+    };
+    const auto cross = [&](Pack ax, Pack ay, Pack bx, Pack by, LaneMask<T> present) {
+      return select(present, fma(ax, by, -(ay * bx)), one);
+    };
+
+    const int first_slot = lane_index<T>(body.ring_begin[g]);
+    const int end_slot = first_slot + lane_index<T>(body.ring_size[g]);
+    const NodePack<T> first = state.neighbour(first_slot);
+    const Pack first_dx = first.x - self.x, first_dy = first.y - self.y;
+    {
+      const Pack length = sqrt(max(fma(first_dx, first_dx, first_dy * first_dy), tiny));
+      pull(first, first_dx, first_dy, length, one / length, first_slot);
+    }
+    Pack before_dx = first_dx, before_dy = first_dy;
+    Pack last_vx = first.vx, last_vy = first.vy;
+    for (int slot = first_slot + Pack::width; slot < end_slot; slot += Pack::width) {
+      const NodePack<T> other = state.neighbour(slot);
+      const Pack dx = other.x - self.x, dy = other.y - self.y;
+      const Pack length = sqrt(max(fma(dx, dx, dy * dy), tiny));
       if constexpr (terms.pressure) {
-        fx = fma(tension, dx, fma(push, before_dy - dy, fx));
-        fy = fma(tension, dy, fma(push, dx - before_dx, fy));
-        before_dx = dx;
-        before_dy = dy;
+        // One division serves both 1/l and S0/S.
+        const Pack rest_area2 = Pack::load(body.rest_area2 + slot);
+        const auto present = rest_area2 > zero;
+        const Pack area2 = cross(before_dx, before_dy, dx, dy, present);
+        const Pack inverse = one / (length * area2);
+        press(before_dx, before_dy, dx, dy, present, rest_area2 * (inverse * length));
+        pull(other, dx, dy, length, inverse * area2, slot);
       } else {
-        fx = fma(tension, dx, fx);
-        fy = fma(tension, dy, fy);
+        pull(other, dx, dy, length, one / length, slot);
+      }
+      before_dx = dx;
+      before_dy = dy;
+      last_vx = other.vx;
+      last_vy = other.vy;
+    }
+    if constexpr (terms.pressure) {
+      if (body.ring_closed[g] != 0) {
+        const Pack rest_area2 = Pack::load(body.closing_area2 + node_base);
+        const auto present = rest_area2 > zero;
+        const Pack area2 = cross(before_dx, before_dy, first_dx, first_dy, present);
+        press(before_dx, before_dy, first_dx, first_dy, present, rest_area2 / area2);
       }
     }
 
     if constexpr (terms.drag) {
       if (g < body.outline_groups) {
+        const auto resist = [&](Pack dx, Pack dy, Pack other_vx, Pack other_vy, Pack present) {
+          const Pack half(T(0.5));
+          add_edge_drag<T>(dx, dy, half * (self.vx + other_vx), half * (self.vy + other_vy), drag,
+                           present, fx, fy);
+        };
+        resist(first_dx, first_dy, first.vx, first.vy, Pack::load(body.edge_to_first + node_base));
+        resist(before_dx, before_dy, last_vx, last_vy, Pack::load(body.edge_to_last + node_base));
         for (int e = 0; e < body.edge_size[g]; ++e) {
           const int base = lane_index<T>(body.edge_begin[g] + e);
-          const NodePack<T> other = gather(body.now, body.edge_other + base);
-          const Pack half(T(0.5));
-          add_edge_drag<T>(other.x - self.x, other.y - self.y, half * (self.vx + other.vx),
-                           half * (self.vy + other.vy), drag, Pack::load(body.edge_present + base),
-                           fx, fy);
+          const NodePack<T> other = state.edge_end(base);
+          resist(other.x - self.x, other.y - self.y, other.vx, other.vy,
+                 Pack::load(body.edge_present + base));
         }
       }
     }
@@ -182,15 +216,20 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
     }
     vx.store(body.vx + node_base);
     vy.store(body.vy + node_base);
-    store({fma(h, vx, self.x), fma(h, vy, self.y), fma(extrapolate, ax, vx),
-           fma(extrapolate, ay, vy)},
-          body.next + node_base);
+    state.put(node_base, {fma(h, vx, self.x), fma(h, vy, self.y), fma(extrapolate, ax, vx),
+                          fma(extrapolate, ay, vy)});
 
     const Pack speed2 = fma(vx, vx, vy * vy);
     extremes.largest_speed2 = max(speed2, extremes.largest_speed2);
     extremes.not_finite = fma(speed2, zero, extremes.not_finite);
   }
   seen = extremes;
+}
+
+template <class T, Terms terms>
+inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Turn<T> n,
+                      StepExtremes<T>& seen) {
+  step_body<T, terms>(body, c, n, seen, Records<T>{body});
 }
 
 }  // namespace metamorph::kernels

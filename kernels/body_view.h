@@ -39,8 +39,7 @@ struct BodyView {
   const int* ring_size = nullptr;    ///< its slots
   const int* ring_closed = nullptr;  ///< 1 if a lane of the group has a closed ring
   // [groups * width]
-  const std::uint32_t* before =
-      nullptr;  ///< record offset of the last neighbour of a closed ring; else its own
+  const T* closing_area2 = nullptr;  ///< 2 S0 of the triangle that closes a ring, d^2; 0: none
   // [slots * width]
   const std::uint32_t* neighbour = nullptr;  ///< record offset; its own where there is no such slot
   const T* rest_length = nullptr;            ///< L0, d
@@ -59,7 +58,12 @@ struct BodyView {
   bool one_period = false;           ///< all oscillators have the same
   std::uint64_t period_advance = 0;  ///< then of one step: 2^64 is one turn
 
-  // Outline edges of the nodes of the first groups, one slot per edge of a node.
+  // Outline edges of the nodes of the first groups. A ring that is one open fan has them at its
+  // ends; those inside a ring of several fans follow, one slot per edge of a node.
+  // [outline_groups * width]
+  const T* edge_to_first =
+      nullptr;                      ///< 1 if there is an edge to the ring's first neighbour, else 0
+  const T* edge_to_last = nullptr;  ///< and to its last
   const int* edge_begin = nullptr;  ///< [outline_groups] first edge slot
   const int* edge_size = nullptr;   ///< [outline_groups]
   const std::uint32_t* edge_other =

@@ -241,6 +241,24 @@ TEST(CheckBody, TwoTrianglesThatShareANodeOnlyAreTwoParts) {
   EXPECT_EQ(faults[0].status, Status::bad_topology);
 }
 
+TEST(CheckBody, NothingFitsBesideAClosedFan) {
+  Body body = tests::hexagon_body();
+  const Index centre = 3;  // by u, then v
+  ASSERT_EQ(body.x[3], 0);
+  ASSERT_EQ(body.y[3], 0);
+  // A triangle on two new nodes close to the centre, within those that lie around it.
+  body.x.insert(body.x.end(), {0.4, 0.1});
+  body.y.insert(body.y.end(), {0.1, 0.4});
+  body.period.insert(body.period.end(), 2, 40);
+  body.phase.insert(body.phase.end(), 2, 0);
+  body.triangles.push_back({centre, 7, 8});
+  set_rest_from_nodes(body);
+  EXPECT_THAT(texts(check(body)),
+              testing::Contains("nodes[3]: 2 fans of triangles around it, 1 of them closed: "
+                                "expected one closed fan, or open ones only"));
+  EXPECT_EQ(status_of(check(body)), Status::bad_topology);
+}
+
 TEST(CheckBody, OverlappingTrianglesAreBadTopology) {
   Body body;
   body.x = {0, 1, 0, 0.2};
