@@ -111,8 +111,8 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
       own = fma(amplitude, oscillation(body.node_oscillator, node_base, n), one);
     }
 
-    const auto pull = [&](const NodePack<T>& other, Pack dx, Pack dy, Pack length,
-                          Pack inverse_length, int slot) {
+    const auto pull = [&](const NodePack<T>& other, Pack dx, Pack dy, Pack length2,
+                          Pack inverse_length2, int slot) {
       Pack rest_length = Pack::load(body.rest_length + slot);
       if constexpr (terms.actuation == Actuation::own_period) {
         rest_length *= fma(amplitude, oscillation(body.ring_oscillator, slot, n), own);
@@ -120,9 +120,9 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
         rest_length = fma(swing_sine, Pack::load(body.swing_sine + slot), rest_length);
         rest_length = fma(swing_cosine, Pack::load(body.swing_cosine + slot), rest_length);
       }
-      const Pack tension =
-          spring_tension<T>(dx, dy, other.vx - self.vx, other.vy - self.vy, length, inverse_length,
-                            rest_length, stiffness, damping, Pack::load(body.spring + slot));
+      const Pack tension = spring_tension<T>(dx, dy, other.vx - self.vx, other.vy - self.vy,
+                                             sqrt(length2), inverse_length2, rest_length, stiffness,
+                                             damping, Pack::load(body.spring + slot));
       fx = fma(tension, dx, fx);
       fy = fma(tension, dy, fy);
     };
@@ -144,25 +144,25 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
     const NodePack<T> first = state.neighbour(first_slot);
     const Pack first_dx = first.x - self.x, first_dy = first.y - self.y;
     {
-      const Pack length = sqrt(max(fma(first_dx, first_dx, first_dy * first_dy), tiny));
-      pull(first, first_dx, first_dy, length, one / length, first_slot);
+      const Pack length2 = max(fma(first_dx, first_dx, first_dy * first_dy), tiny);
+      pull(first, first_dx, first_dy, length2, one / length2, first_slot);
     }
     Pack before_dx = first_dx, before_dy = first_dy;
     Pack last_vx = first.vx, last_vy = first.vy;
     for (int slot = first_slot + Pack::width; slot < end_slot; slot += Pack::width) {
       const NodePack<T> other = state.neighbour(slot);
       const Pack dx = other.x - self.x, dy = other.y - self.y;
-      const Pack length = sqrt(max(fma(dx, dx, dy * dy), tiny));
+      const Pack length2 = max(fma(dx, dx, dy * dy), tiny);
       if constexpr (terms.pressure) {
-        // One division serves both 1/l and S0/S.
+        // One division serves both 1/l^2 and S0/S.
         const Pack rest_area2 = Pack::load(body.rest_area2 + slot);
         const auto present = rest_area2 > zero;
         const Pack area2 = cross(before_dx, before_dy, dx, dy, present);
-        const Pack inverse = one / (length * area2);
-        press(before_dx, before_dy, dx, dy, present, rest_area2 * (inverse * length));
-        pull(other, dx, dy, length, inverse * area2, slot);
+        const Pack inverse = one / (length2 * area2);
+        press(before_dx, before_dy, dx, dy, present, rest_area2 * (inverse * length2));
+        pull(other, dx, dy, length2, inverse * area2, slot);
       } else {
-        pull(other, dx, dy, length, one / length, slot);
+        pull(other, dx, dy, length2, one / length2, slot);
       }
       before_dx = dx;
       before_dy = dy;
