@@ -35,8 +35,12 @@ TEST_P(Evaluation, ABodyRestsWhereNothingDrivesIt) {
   double moved = 0;
   for (const auto& picture : result.pictures)
     moved = std::max(moved, rms_distance(picture.x, picture.y, body.x, body.y));
-  // Places, rest lengths and areas are rounded at sizes of up to 16 d.
-  EXPECT_TRUE(within(moved, 16 * 8 * GetParam().round_off));
+  // Places, rest lengths and areas are rounded at sizes of up to 16 d. What a node sums is rounded
+  // too: some 18 terms (a spring and two sides of a triangle for each of six neighbours) of size
+  // 1/2, always alike while nothing moves; the body falls freely under what is left of them.
+  const double nodes = 60, push = GetParam().round_off / 2 * std::sqrt(18 * nodes);
+  const double fall = push / nodes * 200 * 200 / 2;
+  EXPECT_TRUE(within(moved, 16 * 8 * GetParam().round_off + fall));
 }
 
 TEST_P(Evaluation, WithoutSurroundingsABodyCannotMoveItself) {
