@@ -53,26 +53,59 @@ using Floats = Lanes<float>::Vector;
   return __builtin_shufflevector(a, b, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31);
 }
 
-// Consecutive records: the first (last) two columns of the rows a and b, and back.
+// Consecutive records, a few to a register: the first (last) two columns of the rows a and b, and
+// back to the first (last) records of a row.
+using Doubles = Lanes<double>::Vector;
 [[gnu::always_inline]] inline Floats columns_01(Floats a, Floats b) {
   return __builtin_shufflevector(a, b, 0, 4, 8, 12, 16, 20, 24, 28, 1, 5, 9, 13, 17, 21, 25, 29);
 }
 [[gnu::always_inline]] inline Floats columns_23(Floats a, Floats b) {
   return __builtin_shufflevector(a, b, 2, 6, 10, 14, 18, 22, 26, 30, 3, 7, 11, 15, 19, 23, 27, 31);
 }
+[[gnu::always_inline]] inline Floats first_records(Floats xy, Floats uv) {
+  return __builtin_shufflevector(xy, uv, 0, 8, 16, 24, 1, 9, 17, 25, 2, 10, 18, 26, 3, 11, 19, 27);
+}
+[[gnu::always_inline]] inline Floats last_records(Floats xy, Floats uv) {
+  return __builtin_shufflevector(xy, uv, 4, 12, 20, 28, 5, 13, 21, 29, 6, 14, 22, 30, 7, 15, 23,
+                                 31);
+}
 [[gnu::always_inline]] inline Floats first_halves(Floats a, Floats b) {
   return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23);
 }
-[[gnu::always_inline]] inline Floats second_halves(Floats a, Floats b) {
+[[gnu::always_inline]] inline Floats last_halves(Floats a, Floats b) {
   return __builtin_shufflevector(a, b, 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30,
                                  31);
 }
-[[gnu::always_inline]] inline Floats records_0123(Floats xy, Floats uv) {
-  return __builtin_shufflevector(xy, uv, 0, 8, 16, 24, 1, 9, 17, 25, 2, 10, 18, 26, 3, 11, 19, 27);
+[[gnu::always_inline]] inline Doubles columns_01(Doubles a, Doubles b) {
+  return __builtin_shufflevector(a, b, 0, 4, 8, 12, 1, 5, 9, 13);
 }
-[[gnu::always_inline]] inline Floats records_4567(Floats xy, Floats uv) {
-  return __builtin_shufflevector(xy, uv, 4, 12, 20, 28, 5, 13, 21, 29, 6, 14, 22, 30, 7, 15, 23,
-                                 31);
+[[gnu::always_inline]] inline Doubles columns_23(Doubles a, Doubles b) {
+  return __builtin_shufflevector(a, b, 2, 6, 10, 14, 3, 7, 11, 15);
+}
+[[gnu::always_inline]] inline Doubles first_records(Doubles xy, Doubles uv) {
+  return __builtin_shufflevector(xy, uv, 0, 4, 8, 12, 1, 5, 9, 13);
+}
+[[gnu::always_inline]] inline Doubles last_records(Doubles xy, Doubles uv) {
+  return __builtin_shufflevector(xy, uv, 2, 6, 10, 14, 3, 7, 11, 15);
+}
+[[gnu::always_inline]] inline Doubles first_halves(Doubles a, Doubles b) {
+  return __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
+}
+[[gnu::always_inline]] inline Doubles last_halves(Doubles a, Doubles b) {
+  return __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
+}
+
+/// The numbers of `width` consecutive records in four registers.
+template <class T>
+[[gnu::always_inline]] inline Lanes<T> load_row(const NodeRecord<T>* records, int row) {
+  typename Lanes<T>::Vector numbers;
+  __builtin_memcpy(&numbers, records + row * Lanes<T>::width / 4, sizeof numbers);
+  return numbers;
+}
+template <class T>
+[[gnu::always_inline]] inline void store_row(typename Lanes<T>::Vector numbers,
+                                             NodeRecord<T>* records, int row) {
+  __builtin_memcpy(records + row * Lanes<T>::width / 4, &numbers, sizeof numbers);
 }
 
 [[gnu::always_inline]] inline NodePack<float> gather_floats(const NodeRecord<float>* records,
@@ -173,41 +206,37 @@ template <class T>
 template <class T>
 [[gnu::always_inline]] inline NodePack<T> load(const NodeRecord<T>* records) {
 #if defined(__AVX512F__)
-  if constexpr (sizeof(T) == 4) {
-    const auto row = [&](int i) { return detail::Floats(_mm512_loadu_ps(&records[4 * i].x)); };
-    // First halves in order, then second halves.
-    const detail::Floats xy_low = detail::columns_01(row(0), row(1));
-    const detail::Floats xy_high = detail::columns_01(row(2), row(3));
-    const detail::Floats uv_low = detail::columns_23(row(0), row(1));
-    const detail::Floats uv_high = detail::columns_23(row(2), row(3));
-    return {Lanes<T>(detail::first_halves(xy_low, xy_high)),
-            Lanes<T>(detail::second_halves(xy_low, xy_high)),
-            Lanes<T>(detail::first_halves(uv_low, uv_high)),
-            Lanes<T>(detail::second_halves(uv_low, uv_high))};
-  }
-#endif
+  using Vector = typename Lanes<T>::Vector;
+  const Vector row0 = detail::load_row(records, 0).v, row1 = detail::load_row(records, 1).v;
+  const Vector row2 = detail::load_row(records, 2).v, row3 = detail::load_row(records, 3).v;
+  const Vector xy_low = detail::columns_01(row0, row1), xy_high = detail::columns_01(row2, row3);
+  const Vector uv_low = detail::columns_23(row0, row1), uv_high = detail::columns_23(row2, row3);
+  return {Lanes<T>(detail::first_halves(xy_low, xy_high)),
+          Lanes<T>(detail::last_halves(xy_low, xy_high)),
+          Lanes<T>(detail::first_halves(uv_low, uv_high)),
+          Lanes<T>(detail::last_halves(uv_low, uv_high))};
+#else
   std::uint32_t offset[Lanes<T>::width];
   for (std::uint32_t l = 0; l < Lanes<T>::width; ++l) offset[l] = record_offset<T>(l);
   return gather(records, offset);
+#endif
 }
 
 /// Writes packs as consecutive records.
 template <class T>
 [[gnu::always_inline]] inline void store(const NodePack<T>& pack, NodeRecord<T>* records) {
 #if defined(__AVX512F__)
-  if constexpr (sizeof(T) == 4) {
-    const detail::Floats xy_low = detail::first_halves(pack.x.v, pack.y.v);
-    const detail::Floats xy_high = detail::second_halves(pack.x.v, pack.y.v);
-    const detail::Floats uv_low = detail::first_halves(pack.vx.v, pack.vy.v);
-    const detail::Floats uv_high = detail::second_halves(pack.vx.v, pack.vy.v);
-    const auto put = [&](int i, detail::Floats row) { _mm512_storeu_ps(&records[4 * i].x, row); };
-    put(0, detail::records_0123(xy_low, uv_low));
-    put(1, detail::records_4567(xy_low, uv_low));
-    put(2, detail::records_0123(xy_high, uv_high));
-    put(3, detail::records_4567(xy_high, uv_high));
-    return;
-  }
-#elif defined(__AVX2__) && defined(__FMA__)
+  using Vector = typename Lanes<T>::Vector;
+  const Vector xy_low = detail::first_halves(pack.x.v, pack.y.v);
+  const Vector xy_high = detail::last_halves(pack.x.v, pack.y.v);
+  const Vector uv_low = detail::first_halves(pack.vx.v, pack.vy.v);
+  const Vector uv_high = detail::last_halves(pack.vx.v, pack.vy.v);
+  detail::store_row<T>(detail::first_records(xy_low, uv_low), records, 0);
+  detail::store_row<T>(detail::last_records(xy_low, uv_low), records, 1);
+  detail::store_row<T>(detail::first_records(xy_high, uv_high), records, 2);
+  detail::store_row<T>(detail::last_records(xy_high, uv_high), records, 3);
+#else
+#if defined(__AVX2__) && defined(__FMA__)
   if constexpr (sizeof(T) == 4) {
     const __m256 xy_low = _mm256_unpacklo_ps(pack.x.v, pack.y.v);
     const __m256 xy_high = _mm256_unpackhi_ps(pack.x.v, pack.y.v);
@@ -226,6 +255,7 @@ template <class T>
   for (int l = 0; l < Lanes<T>::width; ++l) {
     records[l] = {pack.x[l], pack.y[l], pack.vx[l], pack.vy[l]};
   }
+#endif
 }
 
 }  // namespace metamorph::kernels
