@@ -120,7 +120,7 @@ class Developer {
     }
     // After deaths the lists of neighbours speak of other numbers.
     const auto asked = [&, died = changed](int i) {
-      return died ? std::span<const int>() : neighbourhood_.of(i);
+      return died ? NeighbourTable::List() : neighbourhood_.of(i);
     };
     for (int i = 0; i < mothers && colony_.count < rules_.max_cells; ++i) {
       if (willing_[at(i)] && divide(i, step, asked(i))) changed = true;
@@ -130,7 +130,7 @@ class Developer {
 
   /// Puts a daughter 1 d from the mother in her direction, if there is space. neighbours: cells to
   /// ask first, who mostly are the ones in the way.
-  bool divide(int mother, int step, std::span<const int> neighbours) {
+  bool divide(int mother, int step, NeighbourTable::List neighbours) {
     const auto& cell = colony_.cell[at(mother)];
     const T x = cell.x + colony_.heading_x[at(mother)];
     const T y = cell.y + colony_.heading_y[at(mother)];

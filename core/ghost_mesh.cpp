@@ -2,8 +2,15 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 
 namespace metamorph::core {
+
+void GhostMesh::clear() {
+  faces_.clear();
+  side_of_edge_.clear();
+  forget_changes();
+}
 
 bool GhostMesh::connect(std::span<const std::array<Index, 3>> triangles, Index count) {
   clear();
@@ -13,7 +20,7 @@ bool GhostMesh::connect(std::span<const std::array<Index, 3>> triangles, Index c
   std::vector<int> first(vertices, -1), following(3 * triangles.size());
   for (const auto& [a, b, c] : triangles) {
     const int f = face_count();
-    faces_.push_back({{a, b, c}, {}});
+    faces_.push_back({{a, b, c}, {}, {}});
     for (int corner = 0; corner < 3; ++corner) {
       const auto start = static_cast<std::size_t>(vertex(f, next(corner)));
       following[static_cast<std::size_t>(3 * f + corner)] = first[start];
@@ -37,7 +44,7 @@ bool GhostMesh::connect(std::span<const std::array<Index, 3>> triangles, Index c
         join({f, corner}, {twin / 3, twin % 3});
       } else {
         leaving[static_cast<std::size_t>(start)] = face_count();
-        faces_.push_back({{ghost, end, start}, {}});
+        faces_.push_back({{ghost, end, start}, {}, {}});
         join({f, corner}, {face_count() - 1, 0});
       }
     }
@@ -45,7 +52,41 @@ bool GhostMesh::connect(std::span<const std::array<Index, 3>> triangles, Index c
   for (int g = real_faces; g < face_count(); ++g) {
     join({g, 2}, {leaving[static_cast<std::size_t>(vertex(g, 1))], 1});
   }
+  for (int f = 0; f < face_count(); ++f) {
+    for (int corner = 0; corner < 3; ++corner) {
+      const Side side = {f, corner};
+      if (side.code < twin(side).code) add_edge(side, twin(side));
+    }
+  }
+  forget_changes();
   return true;
+}
+
+void GhostMesh::join_as(int edge, Side a, Side b) {
+  join(a, b);
+  name_edge(a, edge);
+  name_edge(b, edge);
+  side_of_edge_[static_cast<std::size_t>(edge)] = a;
+  touched_.push_back(edge);
+}
+
+/// Makes a side the other one of the edge that `beyond` belongs to.
+void GhostMesh::attach(Side side, Side beyond) { join_as(edge(beyond), side, beyond); }
+
+void GhostMesh::add_edge(Side a, Side b) {
+  side_of_edge_.emplace_back();
+  replace(edge_count() - 1, a, b);
+}
+
+/// Gives the number of an edge that is gone to the last one.
+void GhostMesh::erase_edge(int edge) {
+  const int last = edge_count() - 1;
+  if (edge != last) {
+    const Side side = side_of(last);
+    replace(edge, side, twin(side));
+  }
+  replaced_.push_back(last);
+  side_of_edge_.pop_back();
 }
 
 bool GhostMesh::are_neighbours(Side corner, Index other) const {
@@ -65,13 +106,14 @@ bool GhostMesh::flip(Side side) {
   const int g = twin(side).face(), j = twin(side).corner();
   const Side beyond_bc = twin({f, next(i)}), beyond_ca = twin({f, before(i)});
   const Side beyond_ad = twin({g, next(j)}), beyond_db = twin({g, before(j)});
+  const int edge = this->edge(side);
   at(f).vertex = {c, a, d};
   at(g).vertex = {c, d, b};
-  join({f, 0}, beyond_ad);
-  join({f, 1}, {g, 2});
-  join({f, 2}, beyond_ca);
-  join({g, 0}, beyond_db);
-  join({g, 1}, beyond_bc);
+  attach({f, 0}, beyond_ad);
+  replace(edge, {f, 1}, {g, 2});
+  attach({f, 2}, beyond_ca);
+  attach({g, 0}, beyond_db);
+  attach({g, 1}, beyond_bc);
   return true;
 }
 
@@ -80,14 +122,14 @@ void GhostMesh::split(int f, Index vertex) {
   const auto [beyond_bc, beyond_ca, beyond_ab] = face(f).twin;
   const int f1 = face_count(), f2 = f1 + 1;
   at(f).vertex = {a, b, vertex};
-  faces_.push_back({{b, c, vertex}, {}});
-  faces_.push_back({{c, a, vertex}, {}});
-  join({f, 0}, {f1, 1});
-  join({f1, 0}, {f2, 1});
-  join({f2, 0}, {f, 1});
-  join({f, 2}, beyond_ab);
-  join({f1, 2}, beyond_bc);
-  join({f2, 2}, beyond_ca);
+  faces_.push_back({{b, c, vertex}, {}, {}});
+  faces_.push_back({{c, a, vertex}, {}, {}});
+  add_edge({f, 0}, {f1, 1});
+  add_edge({f1, 0}, {f2, 1});
+  add_edge({f2, 0}, {f, 1});
+  attach({f, 2}, beyond_ab);
+  attach({f1, 2}, beyond_bc);
+  attach({f2, 2}, beyond_ca);
 }
 
 void GhostMesh::dissolve(Side corner) {
@@ -100,10 +142,13 @@ void GhostMesh::dissolve(Side corner) {
   const Index a = this->vertex(f, next(i)), b = this->vertex(f, before(i));
   const Index c = this->vertex(f1, before(i1));
   const Side beyond_ab = twin(corner), beyond_bc = twin({f1, i1}), beyond_ca = twin({f2, i2});
+  std::array<int, 3> spokes = {edge({f, next(i)}), edge({f, before(i)}), edge({f1, next(i1)})};
+  std::sort(spokes.begin(), spokes.end(), std::greater<>());
   at(f).vertex = {a, b, c};
-  join({f, 0}, beyond_bc);
-  join({f, 1}, beyond_ca);
-  join({f, 2}, beyond_ab);
+  attach({f, 0}, beyond_bc);
+  attach({f, 1}, beyond_ca);
+  attach({f, 2}, beyond_ab);
+  for (const int spoke : spokes) erase_edge(spoke);
   erase_face(std::max(f1, f2));
   erase_face(std::min(f1, f2));
 }
@@ -112,7 +157,7 @@ void GhostMesh::erase_face(int f) {
   const int last = face_count() - 1;
   if (f != last) {
     at(f).vertex = face(last).vertex;
-    for (int i = 0; i < 3; ++i) join({f, i}, twin({last, i}));
+    for (int i = 0; i < 3; ++i) attach({f, i}, twin({last, i}));
   }
   faces_.pop_back();
 }

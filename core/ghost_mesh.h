@@ -29,6 +29,7 @@ class GhostMesh {
   struct Face {
     std::array<Index, 3> vertex;  ///< counter-clockwise
     std::array<Side, 3> twin;     ///< the edge opposite each vertex as the face behind it sees it
+    std::array<int, 3> edge;      ///< number of the edge opposite each vertex
   };
   /// The corners of a side's two faces: the edge is a-b, the faces are (c, a, b) and (d, b, a).
   struct Quadrilateral {
@@ -41,7 +42,7 @@ class GhostMesh {
   /// Replaces the mesh by that of a triangulation's faces (counter-clockwise). Leaves it empty and
   /// says false unless each of the vertices 0 .. count-1 is in a face.
   bool connect(std::span<const std::array<Index, 3>> triangles, Index count);
-  void clear() { faces_.clear(); }
+  void clear();
   bool empty() const { return faces_.empty(); }
 
   int face_count() const { return static_cast<int>(faces_.size()); }
@@ -59,6 +60,23 @@ class GhostMesh {
   }
   /// The corner at which the ghost sits, or -1 in a real face.
   int ghost_corner(int f) const { return corner_of(f, ghost); }
+  int edge_count() const { return static_cast<int>(side_of_edge_.size()); }
+  int edge(Side side) const {
+    return face(side.face()).edge[static_cast<std::size_t>(side.corner())];
+  }
+  /// One of the two sides of an edge.
+  Side side_of(int edge) const { return side_of_edge_[static_cast<std::size_t>(edge)]; }
+  /// Numbers of the edges that got other ends or other faces since forget_changes(), in any order
+  /// and perhaps repeatedly, some of them perhaps no longer in use. After connect(), clear() and
+  /// rename() they do not tell all.
+  std::span<const int> touched() const { return touched_; }
+  /// The same of those that may have got other ends.
+  std::span<const int> replaced() const { return replaced_; }
+  void forget_changes() {
+    touched_.clear();
+    replaced_.clear();
+  }
+
   Quadrilateral around(Side side) const {
     const int f = side.face(), i = side.corner();
     const Side behind = twin(side);
@@ -71,7 +89,7 @@ class GhostMesh {
   bool flip(Side side);
   /// Puts a new vertex into a face; it is corner 2 of the face and of the two last ones.
   void split(int f, Index vertex);
-  /// Removes a vertex that has three neighbours. Renumbers faces.
+  /// Removes a vertex that has three neighbours. Renumbers faces and edges.
   void dissolve(Side corner);
   /// Gives every vertex v the number name[v].
   void rename(std::span<const Index> name);
@@ -88,12 +106,25 @@ class GhostMesh {
     at(a.face()).twin[static_cast<std::size_t>(a.corner())] = b;
     at(b.face()).twin[static_cast<std::size_t>(b.corner())] = a;
   }
+  void name_edge(Side side, int edge) {
+    at(side.face()).edge[static_cast<std::size_t>(side.corner())] = edge;
+  }
+  void join_as(int edge, Side a, Side b);
+  void replace(int edge, Side a, Side b) {
+    join_as(edge, a, b);
+    replaced_.push_back(edge);
+  }
+  void attach(Side side, Side beyond);
+  void add_edge(Side a, Side b);
+  void erase_edge(int edge);
   void erase_face(int f);
 
   using Edges = std::vector<std::array<Index, 2>>;
   void sort_by_vertex(std::size_t which, Index count, const Edges& from, Edges& to);
 
   std::vector<Face> faces_;
+  std::vector<Side> side_of_edge_;
+  std::vector<int> touched_, replaced_;
   std::vector<int> bucket_;  // scratch of list_edges
   Edges unsorted_, half_sorted_;
 };

@@ -27,7 +27,7 @@ Index LinkSelection::root(Index i) {
   return i;
 }
 
-void LinkSelection::select(std::span<const double> x, std::span<const double> y, double limit,
+bool LinkSelection::select(std::span<const double> x, std::span<const double> y, double limit,
                            std::span<const std::array<Index, 2>> edges,
                            std::vector<std::array<Index, 2>>& links) {
   // Written so that nothing branches on a length. If every cell but one has a short link to a lower
@@ -46,7 +46,7 @@ void LinkSelection::select(std::span<const double> x, std::span<const double> y,
     has_lower_[j] |= is_short;
   }
   links.resize(count);
-  short_ones_suffice_ = lowest <= 1 || join_components(x, y, edges, links);
+  return lowest <= 1 || join_components(x, y, edges, links);
 }
 
 /// Adds the long edges that join components of the short ones; true if there was nothing to add.
@@ -81,16 +81,6 @@ bool LinkSelection::join_components(std::span<const double> x, std::span<const d
   std::sort(links.begin() + short_links, links.end());
   std::inplace_merge(links.begin(), links.begin() + short_links, links.end());
   return false;
-}
-
-bool LinkSelection::still_holds(std::span<const double> x, std::span<const double> y, double limit,
-                                std::span<const std::array<Index, 2>> edges) const {
-  if (!short_ones_suffice_ || edges.size() != is_short_.size()) return false;
-  bool same = true;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    same = same && (squared_length(x, y, edges[e]) <= limit * limit) == (is_short_[e] != 0);
-  }
-  return same;
 }
 
 }  // namespace metamorph::core

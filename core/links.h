@@ -13,16 +13,11 @@ namespace metamorph::core {
 /// components. Lengths are compared as squares in double. Reuse one object to save allocations.
 class LinkSelection {
  public:
-  /// edges: i < j, ascending. links: the chosen edges, ascending.
-  void select(std::span<const double> x, std::span<const double> y, double limit,
+  /// edges: i < j, ascending. links: the chosen edges, ascending. True if none of them is longer
+  /// than the limit.
+  bool select(std::span<const double> x, std::span<const double> y, double limit,
               std::span<const std::array<Index, 2>> edges,
               std::vector<std::array<Index, 2>>& links);
-
-  /// Whether select() with the edges and the limit of last time would choose the same links again,
-  /// as far as can be told without sorting: every edge is on the same side of the limit as then,
-  /// and the short ones suffice.
-  bool still_holds(std::span<const double> x, std::span<const double> y, double limit,
-                   std::span<const std::array<Index, 2>> edges) const;
 
  private:
   struct LongEdge {
@@ -38,7 +33,6 @@ class LinkSelection {
   std::vector<LongEdge> long_edges_;
   std::vector<unsigned char> is_short_;   // [edges]
   std::vector<unsigned char> has_lower_;  // [cells] has a short link to a lower cell
-  bool short_ones_suffice_ = false;
 };
 
 }  // namespace metamorph::core

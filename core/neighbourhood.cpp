@@ -2,68 +2,84 @@
 #include <cstddef>
 
 #include "core/neighbourhood_detail.h"
+#include "kernels/in_circle.h"
 
 namespace metamorph::core {
 
 void Neighbourhood::renew(std::span<const double> x, std::span<const double> y,
                           std::span<const Index> previous, double link_limit) {
   triangulation_.update(x, y, previous);
-  const auto& edges = triangulation_.edges();
-  if (!triangulation_.changed() && selection_.still_holds(x, y, link_limit, edges)) return;
-  selection_.select(x, y, link_limit, edges, links_);
-  list_neighbours(x.size());
-  fill_slots(static_cast<int>(x.size()));
+  if (patchable_ && triangulation_.patched()) {
+    table_.grow(static_cast<Index>(x.size()));
+    if (!patch(link_limit * link_limit) || table_.lowest_count() <= 1) return;
+  }
+  fill(x, y, link_limit);
 }
 
-void Neighbourhood::list_neighbours(std::size_t cells) {
-  start_.assign(cells + 1, 0);
-  for (const auto& [i, j] : links_) {
-    ++start_[static_cast<std::size_t>(i)];
-    ++start_[static_cast<std::size_t>(j)];
+/// Brings the table to the short edges of the mesh. True if anything changed.
+bool Neighbourhood::patch(double square_limit) {
+  const GhostMesh& mesh = triangulation_.mesh();
+  // First all that has gone: a number may have passed from one edge to another.
+  for (const int edge : mesh.replaced()) unlink(edge);
+  make_room(mesh.edge_count());
+  for (const int edge : mesh.replaced()) {
+    if (edge < mesh.edge_count()) link_if_short(edge, square_limit);
   }
-  int end = 0;
-  for (int& start : start_) {
-    const int degree = start;
-    start = end;
-    end += degree;
+  // Where the square is that of an edge before, linking again changes nothing.
+  const int crossed = kernels::crossed_limit(triangulation_.squares(), square_limit,
+                                             unlinked_.data(), mesh.edge_count(), crossed_.data());
+  for (int n = 0; n < crossed; ++n) {
+    const int edge = crossed_[static_cast<std::size_t>(n)];
+    unlink(edge);
+    link_if_short(edge, square_limit);
   }
-  // Links ascend, so a cell meets its lower neighbours first, then its higher ones, each in order.
-  // Filling moves every start to its list's end, which is the next list's start.
-  neighbour_.resize(static_cast<std::size_t>(end));
-  for (const auto& [i, j] : links_) {
-    neighbour_[static_cast<std::size_t>(start_[static_cast<std::size_t>(i)]++)] = j;
-    neighbour_[static_cast<std::size_t>(start_[static_cast<std::size_t>(j)]++)] = i;
-  }
-  std::copy_backward(start_.begin(), start_.end() - 1, start_.end());
-  start_[0] = 0;
+  return crossed > 0 || !mesh.replaced().empty();
 }
 
-void Neighbourhood::fill_slots(int cells) {
-  constexpr int lanes = kernels::cell_lanes;
-  const int groups = (cells + lanes - 1) / lanes;
-  const auto degree = [this](int i) {
-    return start_[static_cast<std::size_t>(i) + 1] - start_[static_cast<std::size_t>(i)];
-  };
-  first_slot_.assign(1, 0);
-  for (int g = 0; g < groups; ++g) {
-    int slots = 0;
-    for (int i = g * lanes; i < std::min(cells, (g + 1) * lanes); ++i) {
-      slots = std::max(slots, degree(i));
-    }
-    first_slot_.push_back(first_slot_.back() + slots);
-  }
-  slot_neighbour_.resize(static_cast<std::size_t>(first_slot_.back() * lanes));
-  for (int i = 0; i < groups * lanes; ++i) {
-    const auto g = static_cast<std::size_t>(i / lanes);
-    const int linked = i < cells ? degree(i) : 0;
-    auto at = static_cast<std::size_t>(first_slot_[g] * lanes + i % lanes);
-    for (int s = 0; s < linked; ++s, at += lanes) {
-      slot_neighbour_[at] =
-          static_cast<std::uint32_t>(of(i)[static_cast<std::size_t>(s)]) * record_bytes_;
-    }
-    for (int s = first_slot_[g] + linked; s < first_slot_[g + 1]; ++s, at += lanes) {
-      slot_neighbour_[at] = static_cast<std::uint32_t>(i) * record_bytes_;
-    }
+void Neighbourhood::make_room(int edges) {
+  const std::size_t padded = static_cast<std::size_t>(edges) + kernels::Lanes<double>::width;
+  if (unlinked_.size() >= padded) return;
+  ends_.resize(2 * padded);
+  unlinked_.resize(2 * padded, 1);
+  crossed_.resize(2 * padded);
+}
+
+void Neighbourhood::unlink(int edge) {
+  const auto e = static_cast<std::size_t>(edge);
+  if (e >= unlinked_.size() || unlinked_[e] != 0) return;
+  table_.unlink(ends_[e][0], ends_[e][1]);
+  unlinked_[e] = 1;
+}
+
+void Neighbourhood::link_if_short(int edge, double square_limit) {
+  const auto e = static_cast<std::size_t>(edge);
+  if (unlinked_[e] == 0) return;
+  const auto ends = triangulation_.mesh().around(triangulation_.mesh().side_of(edge));
+  if (ends.a == GhostMesh::ghost || ends.b == GhostMesh::ghost) return;
+  if (triangulation_.squared_length(ends.a, ends.b) > square_limit) return;
+  ends_[e] = {ends.a, ends.b};
+  unlinked_[e] = 0;
+  table_.link(ends.a, ends.b);
+}
+
+/// Chooses among all edges.
+void Neighbourhood::fill(std::span<const double> x, std::span<const double> y, double link_limit) {
+  const bool short_ones_suffice =
+      selection_.select(x, y, link_limit, triangulation_.edges(), links_);
+  table_.reset(static_cast<Index>(x.size()));
+  for (const auto& [i, j] : links_) table_.link(i, j);
+  const GhostMesh& mesh = triangulation_.mesh();
+  patchable_ = short_ones_suffice && !mesh.empty();
+  if (!patchable_) return;
+  make_room(mesh.edge_count());
+  std::fill(unlinked_.begin(), unlinked_.end(), 1.0);
+  for (int edge = 0; edge < mesh.edge_count(); ++edge) {
+    const auto e = static_cast<std::size_t>(edge);
+    const auto ends = mesh.around(mesh.side_of(edge));
+    if (ends.a == GhostMesh::ghost || ends.b == GhostMesh::ghost) continue;
+    if (triangulation_.squared_length(ends.a, ends.b) > link_limit * link_limit) continue;
+    ends_[e] = {ends.a, ends.b};
+    unlinked_[e] = 0;
   }
 }
 

@@ -7,18 +7,19 @@
 #include <vector>
 
 #include "core/links.h"
+#include "core/neighbour_table_detail.h"
 #include "core/triangulation_repair.h"
-#include "kernels/cell_mechanics.h"
 
 namespace metamorph::core {
 
-/// Who is linked to whom in one embryo, in the three forms that development needs: links, each
-/// cell's ascending list of neighbours, and the same lists arranged for the mechanics kernel.
+/// Who is linked to whom in one embryo. From one renewal to the next few links come or go: the
+/// table of neighbours is patched where an edge of the triangulation is another one or has passed
+/// the limit of length, as long as the short edges connect all cells in a way that is easy to see.
+/// Else it is filled anew from all edges.
 class Neighbourhood {
  public:
-  /// record_bytes: size of the records that the mechanics kernel works on.
-  explicit Neighbourhood(std::size_t record_bytes)
-      : record_bytes_(static_cast<std::uint32_t>(record_bytes)) {}
+  /// record_bytes: see NeighbourTable.
+  explicit Neighbourhood(std::size_t record_bytes) : table_(record_bytes) {}
 
   /// Starts a new embryo.
   void clear() { triangulation_.clear(); }
@@ -27,31 +28,29 @@ class Neighbourhood {
   void renew(std::span<const double> x, std::span<const double> y, std::span<const Index> previous,
              double link_limit);
 
-  const std::vector<std::array<Index, 2>>& links() const { return links_; }
+  std::vector<std::array<Index, 2>> links() const { return table_.links(); }
   std::vector<std::array<Index, 3>> faces() const { return triangulation_.faces(); }
-
-  /// Linked neighbours of a cell, ascending.
-  std::span<const int> of(Index cell) const {
-    const int* const first = neighbour_.data() + start_[static_cast<std::size_t>(cell)];
-    const int* const last = neighbour_.data() + start_[static_cast<std::size_t>(cell) + 1];
-    return {first, last};
-  }
-
-  kernels::CellRings rings() const {
-    return {static_cast<int>(first_slot_.size()) - 1, first_slot_.data(), slot_neighbour_.data()};
-  }
+  NeighbourTable::List of(Index cell) const { return table_.of(cell); }
+  kernels::CellRings rings() const { return table_.rings(); }
 
  private:
-  void list_neighbours(std::size_t cells);
-  void fill_slots(int cells);
+  using Edge = std::array<Index, 2>;
 
-  std::uint32_t record_bytes_;
+  bool patch(double square_limit);
+  void make_room(int edges);
+  void unlink(int edge);
+  void link_if_short(int edge, double square_limit);
+  void fill(std::span<const double> x, std::span<const double> y, double link_limit);
+
   TriangulationRepair triangulation_;
   LinkSelection selection_;
-  std::vector<std::array<Index, 2>> links_;
-  std::vector<int> start_, neighbour_;  // lists of neighbours, one after the other
-  std::vector<int> first_slot_;         // see kernels::CellRings
-  std::vector<std::uint32_t> slot_neighbour_;
+  std::vector<Edge> links_;
+  NeighbourTable table_;
+  /// The table holds the short edges of the mesh, and them alone.
+  bool patchable_ = false;
+  std::vector<Edge> ends_;        // [edges] of those that are in the table
+  std::vector<double> unlinked_;  // [edges] 1 if not in the table, 0 if it is
+  std::vector<std::int32_t> crossed_;
 };
 
 }  // namespace metamorph::core

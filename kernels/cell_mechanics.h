@@ -10,13 +10,14 @@ namespace metamorph::kernels {
 inline constexpr int cell_lanes = 16;
 
 /// Linked neighbours of groups of cell_lanes consecutive cells. Group g has the slots
-/// [first_slot[g], first_slot[g + 1]); slot s holds one neighbour of each of its cells at
+/// [first_slot[g], end_slot[g]); slot s holds one neighbour of each of its cells at
 /// neighbour[s * cell_lanes + lane], ascending over the slots of a cell, padded at the end with the
 /// cell itself (which exerts no force).
 struct CellRings {
   int groups;
-  const int* first_slot;           ///< [groups + 1]
-  const std::uint32_t* neighbour;  ///< [first_slot[groups] * cell_lanes] record_offset()s
+  const int* first_slot;           ///< [groups]
+  const int* end_slot;             ///< [groups]
+  const std::uint32_t* neighbour;  ///< [slots * cell_lanes] record_offset()s
 };
 
 /// MODEL section 2: damped springs of rest length 1 d between linked cells, drag; unit masses.
@@ -59,7 +60,7 @@ inline void step_cells(const CellMechanics<T>& mechanics, const CellRings& rings
       force_x[p] = -drag * own[p].vx;
       force_y[p] = -drag * own[p].vy;
     }
-    for (int s = rings.first_slot[g]; s < rings.first_slot[g + 1]; ++s) {
+    for (int s = rings.first_slot[g]; s < rings.end_slot[g]; ++s) {
       for (int p = 0; p < packs; ++p) {
         const NodePack<T> other = gather<T>(from, rings.neighbour + s * cell_lanes + p * width);
         const Lanes<T> dx = other.x - own[p].x, dy = other.y - own[p].y;

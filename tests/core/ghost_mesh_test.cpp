@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -21,8 +22,14 @@ void expect_sound(const GhostMesh& mesh) {
       ASSERT_EQ(mesh.twin({g, j}).code, GhostMesh::Side(f, i).code);
       EXPECT_EQ(mesh.vertex(f, GhostMesh::next(i)), mesh.vertex(g, GhostMesh::before(j)));
       EXPECT_EQ(mesh.vertex(f, GhostMesh::before(i)), mesh.vertex(g, GhostMesh::next(j)));
+      const int edge = mesh.edge({f, i});
+      EXPECT_EQ(mesh.edge({g, j}), edge);
+      ASSERT_LT(edge, mesh.edge_count());
+      const auto side = mesh.side_of(edge).code;
+      EXPECT_TRUE(side == GhostMesh::Side(f, i).code || side == GhostMesh::Side(g, j).code);
     }
   }
+  EXPECT_EQ(2 * mesh.edge_count(), 3 * mesh.face_count());
 }
 
 Faces faces_of(const GhostMesh& mesh) {
@@ -103,6 +110,48 @@ TEST(GhostMesh, SplitAndDissolveAreOpposites) {
     expect_sound(mesh);
     EXPECT_EQ(faces_of(mesh), fan);
   }
+}
+
+/// An edge's two ends and the third corners of its faces, each pair ascending.
+std::array<Index, 4> corners_of(const GhostMesh& mesh, int edge) {
+  const auto q = mesh.around(mesh.side_of(edge));
+  return {std::min(q.a, q.b), std::max(q.a, q.b), std::min(q.c, q.d), std::max(q.c, q.d)};
+}
+
+TEST(GhostMesh, TellsWhichEdgesChanged) {
+  GhostMesh mesh;
+  mesh.connect(fan, 5);
+  const auto change = [&](const auto& act) {
+    std::vector<std::array<Index, 4>> before;
+    for (int e = 0; e < mesh.edge_count(); ++e) before.push_back(corners_of(mesh, e));
+    mesh.forget_changes();
+    act();
+    const auto told = [](std::span<const int> edges, int e) {
+      return std::find(edges.begin(), edges.end(), e) != edges.end();
+    };
+    for (int e = 0; e < std::max(mesh.edge_count(), static_cast<int>(before.size())); ++e) {
+      const bool was = e < static_cast<int>(before.size()), is = e < mesh.edge_count();
+      const auto& old = was ? before[static_cast<std::size_t>(e)] : std::array<Index, 4>{};
+      const auto now = is ? corners_of(mesh, e) : std::array<Index, 4>{};
+      if (was != is || old[0] != now[0] || old[1] != now[1]) {
+        EXPECT_TRUE(told(mesh.replaced(), e)) << e;
+      }
+      if (is && (!was || old != now)) {
+        EXPECT_TRUE(told(mesh.touched(), e)) << e;
+      }
+    }
+  };
+  change([&] { mesh.split(side_of(mesh, 0, 1).face(), 5); });
+  change([&] { mesh.split(side_of(mesh, 1, 2).face(), 6); });
+  change([&] {
+    int f = 0;
+    while (mesh.corner_of(f, 5) < 0) ++f;
+    mesh.dissolve({f, mesh.corner_of(f, 5)});
+  });
+  change([&] { mesh.flip(side_of(mesh, 4, 0)); });
+  change([&] { mesh.flip(side_of(mesh, 1, 2)); });
+  EXPECT_FALSE(mesh.replaced().empty());
+  expect_sound(mesh);
 }
 
 TEST(GhostMesh, RenamesVertices) {

@@ -50,7 +50,8 @@ struct Cells {
   }
 
   CellRings rings() const {
-    return {static_cast<int>(first_slot.size()) - 1, first_slot.data(), neighbour.data()};
+    return {static_cast<int>(first_slot.size()) - 1, first_slot.data(), first_slot.data() + 1,
+            neighbour.data()};
   }
 
   void step(const CellMechanics<T>& mechanics) {
