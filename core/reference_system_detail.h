@@ -49,7 +49,7 @@ class ReferenceSystem {
   double mass = 1;             ///< of every node, m
   std::vector<double> x, y;    ///< [nodes] position, d
   std::vector<double> vx, vy;  ///< [nodes] velocity, d per time unit
-  std::vector<double> ax, ay;  ///< [nodes] acceleration of the previous step, without friction
+  std::vector<double> ax, ay;  ///< [nodes] acceleration of the previous step, with friction
 
  private:
   void set_spring_lengths(double t);

@@ -81,8 +81,10 @@ struct Records {
 ///
 /// The scheme is leapfrog in its staggered form. A record holds the midpoint x_n + h/2 v_n and the
 /// velocity extrapolated there, v_n + h/2 a_(n-1); the kick gives v_(n+1) = v_n + h a_n, and the
-/// next midpoint is x_mid + h v_(n+1): two half drifts in one. With `extrapolate` 0 and records
-/// that hold (x_n, v_n) the same loop is symplectic Euler. `n` counts steps for the oscillators.
+/// next midpoint is x_mid + h v_(n+1): two half drifts in one. The acceleration that extrapolates
+/// is that of the velocity, friction included: what friction holds does not move. With
+/// `extrapolate` 0 and records that hold (x_n, v_n) the same loop is symplectic Euler. `n` counts
+/// steps for the oscillators.
 ///
 /// `state` is where nodes are read and written, see Records.
 template <class T, Terms terms, class State>
@@ -92,6 +94,7 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
   const Pack zero(T(0)), one(T(1)), tiny(T(1e-12));
   const Pack stiffness(c.stiffness), damping(c.damping), half_pressure_coefficient(c.pressure / 2);
   const Pack amplitude(c.amplitude), h(c.step), extrapolate(c.extrapolate);
+  const Pack extrapolate_share(c.extrapolate / c.step);
   const Pack swing_sine(c.swing_sine), swing_cosine(c.swing_cosine);
   const GroundCoefficients<T> ground{c.ground_stiffness, c.ground_damping, c.friction};
   const DragCoefficients<T> drag{c.drag_normal, c.drag_tangential};
@@ -209,15 +212,18 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
 
     const Pack inverse_mass = Pack::load(body.inverse_mass + node_base);
     const Pack ax = fx * inverse_mass, ay = fy * inverse_mass;
-    Pack vx = fma(h, ax, Pack::load(body.vx + node_base));
+    const Pack old_vx = Pack::load(body.vx + node_base);
+    Pack vx = fma(h, ax, old_vx);
     const Pack vy = fma(h, ay, Pack::load(body.vy + node_base));
+    Pack next_vx = fma(extrapolate, ax, vx);
     if constexpr (terms.ground) {
       vx = after_friction(vx, ground.friction * h * normal * inverse_mass);
+      next_vx = fma(extrapolate_share, vx - old_vx, vx);
     }
     vx.store(body.vx + node_base);
     vy.store(body.vy + node_base);
-    state.put(node_base, {fma(h, vx, self.x), fma(h, vy, self.y), fma(extrapolate, ax, vx),
-                          fma(extrapolate, ay, vy)});
+    state.put(node_base,
+              {fma(h, vx, self.x), fma(h, vy, self.y), next_vx, fma(extrapolate, ay, vy)});
 
     const Pack speed2 = fma(vx, vx, vy * vy);
     extremes.largest_speed2 = max(speed2, extremes.largest_speed2);

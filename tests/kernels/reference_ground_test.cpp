@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "kernels/reference/gravity.h"
+#include "kernels/reference/spring.h"
 #include "tests/kernels/points.h"
 #include "tests/tolerance.h"
 
@@ -67,6 +68,34 @@ TEST(Ground, ABlockStopsAfterTheDistanceOfItsEnergy) {
       EXPECT_TRUE(within(block.point.x[0] - v0 * v0 / (2 * mu * g), mu * g * h * h))
           << "v0 " << v0 << " mu " << mu;
     }
+}
+
+TEST(Ground, FrictionHoldsAStretchedPairUpToItsLimit) {
+  // Two blocks on a damped spring stay where they are as long as k x <= mu m g; else they slide at
+  // least to there. An integrator that took their kicks for motion would let the damper help to
+  // hold them, by c h = 4 % here.
+  constexpr double k = 1, c = 0.4, mu = 0.8;
+  const std::vector<ref::Edge> spring = {{0, 1}};
+  const std::vector<double> length = {1};
+  for (const double load : {0.99, 1.01}) {
+    const double stretch = load * mu * g / k;
+    Points pair(2);
+    pair.x[1] = length[0] + stretch;
+    pair.y = {-g / k_n, -g / k_n};
+    integrate(
+        pair, drift_kick_drift, 20, h,
+        [&](const ref::Nodes& nodes, double, const ref::Forces& sums, std::span<double> normal) {
+          ref::add_spring_forces(spring, length, k, c, nodes, sums);
+          ref::add_weight({0, -g}, 1.0, sums);
+          ref::add_ground_forces(k_n, c_n, nodes, normal, sums);
+        },
+        1.0, mu);
+    if (load < 1) {
+      EXPECT_EQ(pair.x[1] - pair.x[0], length[0] + stretch);
+    } else {
+      EXPECT_LT(pair.x[1] - pair.x[0], length[0] + mu * g / k);
+    }
+  }
 }
 
 TEST(Ground, PressesOnlyBelowZeroAndNeverPulls) {

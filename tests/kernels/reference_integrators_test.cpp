@@ -77,7 +77,7 @@ TEST_P(EveryIntegrator, FallsFreely) {
   EXPECT_TRUE(within(point.vy[0] - (v0 - g * t), rounding));
 }
 
-TEST(DriftKickDrift, RemembersTheAccelerationWithoutFriction) {
+TEST(DriftKickDrift, RemembersTheAccelerationWithFriction) {
   Points point(1);
   point.vx[0] = 1;
   const ForceLaw law = [](const ref::Nodes&, double, const ref::Forces& sums,
@@ -87,7 +87,7 @@ TEST(DriftKickDrift, RemembersTheAccelerationWithoutFriction) {
     normal[0] = 2;
   };
   integrate(point, drift_kick_drift, 0.5, 0.5, law, 1.0, 0.125);
-  EXPECT_EQ(point.ax[0], 0.25);
+  EXPECT_EQ(point.ax[0], 0.25 - 0.125 * 2);
   EXPECT_EQ(point.ay[0], 0.5);
   EXPECT_EQ(point.vx[0], 1 + 0.5 * 0.25 - 0.125 * 0.5 * 2);
   EXPECT_EQ(point.x[0], 0.25 + 0.25 * point.vx[0]);
