@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "core/automatic_step.h"
 #include "core/body_batch_detail.h"
 #include "core/runner_detail.h"
 #include "core/stability.h"
@@ -15,7 +16,8 @@ namespace metamorph::core {
 namespace {
 
 /// What is known of a task before anything moves; a status other than ok keeps it from running.
-Outcome before_running(const LocomotionTask& task, Method method) {
+/// Where the scene leaves its steps to the program, the task is given `own`, with steps chosen.
+Outcome before_running(LocomotionTask& task, Method method, Scene& own) {
   const Body& body = *task.body;
   Outcome outcome = describe(body);
   if (body.node_count() == 0) {
@@ -26,14 +28,19 @@ Outcome before_running(const LocomotionTask& task, Method method) {
     outcome.status = status_of(faults);
     return outcome;
   }
-  if (!step_is_stable(body, *task.scene, method)) {
+  if (chooses_steps(*task.scene)) {
+    own = with_chosen_steps(body, *task.scene, method);
+    task.scene = &own;
+  }
+  const Scene& scene = *task.scene;
+  outcome.step = scene.step;
+  if (scene.ground) outcome.settle_step = scene.settle_step;
+  const StepFinding found = assess_steps(body, scene, method);
+  outcome.near_step_limit = found.use == StepUse::close;
+  if (found.use == StepUse::too_large) {
+    const StepPhase phase = step_phase(scene, method, found.settling);
     outcome.status = Status::step_too_large;
-    const Scene& scene = *task.scene;
-    const double run_limit = step_limit(body, scene, scene.damping, method).sharp;
-    outcome.failed_value =
-        scene.step > run_limit
-            ? run_limit
-            : step_limit(body, scene, scene.settle_damping, Method::symplectic_euler).sharp;
+    outcome.failed_value = step_limit(body, scene, phase.damping, phase.method).sharp;
     outcome.failed_step = 0;
   }
   return outcome;
@@ -47,16 +54,18 @@ double expected_work(const LocomotionTask& task) {
 }
 
 template <class T>
-std::vector<Outcome> run_all(std::span<const LocomotionTask> tasks,
+std::vector<Outcome> run_all(std::span<const LocomotionTask> given,
                              const LocomotionOptions& options, int every,
                              const std::function<void(const Frame&)>& observe) {
   const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
-  const auto count = static_cast<std::int64_t>(tasks.size());
+  const auto count = static_cast<std::int64_t>(given.size());
+  std::vector<LocomotionTask> tasks(given.begin(), given.end());
+  std::vector<Scene> own_scenes(tasks.size());
   std::vector<Outcome> outcomes(tasks.size());
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (std::int64_t i = 0; i < count; ++i) {
     const auto index = static_cast<std::size_t>(i);
-    outcomes[index] = before_running(tasks[index], options.method);
+    outcomes[index] = before_running(tasks[index], options.method, own_scenes[index]);
   }
 
   std::vector<std::size_t> sound;

@@ -28,8 +28,9 @@ struct LocomotionTask {
   const Scene* scene = nullptr;
 };
 
-/// Settles (where there is gravity) and runs every task; results by task index. The result of a
-/// task depends on its body and scene alone: the same bits for any batch, order and thread count.
+/// Chooses steps where the scene leaves them to it, settles (where there is gravity) and runs every
+/// task; results by task index. The result of a task depends on its body and scene alone: the same
+/// bits for any batch, order and thread count.
 std::vector<Outcome> simulate(std::span<const LocomotionTask> tasks,
                               const LocomotionOptions& options);
 

@@ -19,6 +19,9 @@ struct Outcome {
   int springs = 0;
   int triangles = 0;
   std::int64_t steps = 0;        ///< integrator steps taken, settling included
+  double step = 0;               ///< time units per integrator step of the run
+  double settle_step = 0;        ///< the same of settling; 0 where there is none
+  bool near_step_limit = false;  ///< a step takes more of its limit than the margin (stability.h)
   double settle_time = 0;        ///< time units until quiet (or time-out)
   double min_area_ratio = 1;     ///< smallest S/S0 seen
   double max_speed = 0;          ///< largest node speed seen, d per time unit

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/automatic_step.h"
 #include "core/reference_system_detail.h"
 
 namespace metamorph::core {
@@ -56,7 +57,10 @@ class Evaluation {
         options_(options),
         h_(options.step > 0 ? options.step : scene.step),
         settle_h_(scene.settle_step * (h_ / scene.step)),
-        outcome_(describe(body)) {}
+        outcome_(describe(body)) {
+    outcome_.step = h_;
+    if (scene_.ground) outcome_.settle_step = settle_h_;
+  }
 
   Outcome run() {
     if (scene_.ground && !settle()) return outcome_;
@@ -134,6 +138,12 @@ class Evaluation {
   ref::Health worst_;  // of the steps so far
 };
 
+/// The method by whose limit steps are chosen.
+Method fast_method(ReferenceMethod method) {
+  return method == ReferenceMethod::symplectic_euler ? Method::symplectic_euler
+                                                     : Method::drift_kick_drift;
+}
+
 }  // namespace
 
 Outcome simulate_reference(const Body& body, const Scene& scene, const ReferenceOptions& options) {
@@ -146,7 +156,8 @@ Outcome simulate_reference(const Body& body, const Scene& scene, const Reference
     refused.status = status_of(faults);
     return refused;
   }
-  return Evaluation(body, scene, options).run();
+  return Evaluation(body, with_chosen_steps(body, scene, fast_method(options.method)), options)
+      .run();
 }
 
 }  // namespace metamorph::core

@@ -19,7 +19,7 @@ enum class ReferenceMethod {
 
 struct ReferenceOptions {
   ReferenceMethod method = ReferenceMethod::drift_kick_drift;
-  double step = 0;        ///< time units; 0: the scene's
+  double step = 0;        ///< time units; 0: the scene's (or chosen, see core/automatic_step.h)
   int observe_every = 1;  ///< integrator steps
   /// Called at the start of actuation and then after every `observe_every` steps, if set.
   std::function<void(const Frame&)> observe;

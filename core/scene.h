@@ -4,6 +4,9 @@
 
 namespace metamorph::core {
 
+/// As the step of a scene: the program chooses one for each body (core/automatic_step.h).
+inline constexpr double automatic_step = 0;
+
 /// How far an animat got, from the displacement (dx, dy) of its mean node position (MODEL section
 /// 4).
 enum class DistanceRule {
@@ -44,14 +47,14 @@ struct Scene {
   double collision_gap = 0.3;        ///< d
 
   // Time.
-  double step = 0.2;     ///< time units per integrator step
+  double step = 0.2;     ///< time units per integrator step, or automatic_step
   int run_steps = 3000;  ///< actuation, ramp included; paper steps
   int ramp_steps = 200;  ///< paper steps
   DistanceRule distance = DistanceRule::euclidean;
 
   // Settling, before actuation, where there is gravity: symplectic Euler, which bears the damping
   // at twice the step of the run (the rest it reaches is the same within 0.01 d in the median).
-  double settle_step = 0.2;      ///< time units per integrator step
+  double settle_step = 0.2;      ///< time units per integrator step, or automatic_step
   double settle_damping = 0.8;   ///< c while settling
   double settle_drag = 0.01;     ///< drag per node while settling
   double settle_speed = 0.01;    ///< quiet below this speed, d per time unit

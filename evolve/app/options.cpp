@@ -23,14 +23,16 @@ constexpr std::array<SceneEntry, 4> scenes = {{{"water", core::water_scene},
 
 /// The whole text as a number of type T within limits, or what was expected.
 template <class T>
-CLI::Validator number_check(T low, T high, const char* kind) {
+CLI::Validator number_check(T low, T high, const char* kind, const std::string& or_word = "") {
   return CLI::Validator(
       [=](const std::string& text) {
+        if (!or_word.empty() && text == or_word) return std::string();
         T value{};
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
         const bool good = error == std::errc() && end == text.data() + text.size();
         if (good && value >= low && value <= high) return std::string();
-        return fmt::format("{}: expected {} from {} to {}", text, kind, low, high);
+        return fmt::format("{}: expected {} from {} to {}{}", text, kind, low, high,
+                           or_word.empty() ? "" : " or " + or_word);
       },
       "");
 }
@@ -66,7 +68,9 @@ CLI::Validator one_of(std::vector<std::string> names) {
 
 CLI::Validator integer_from(int low, int high) { return number_check(low, high, "an integer"); }
 
-CLI::Validator number_from(double low, double high) { return number_check(low, high, "a number"); }
+CLI::Validator number_from(double low, double high, std::string or_word) {
+  return number_check(low, high, "a number", or_word);
+}
 
 void add_development_options(CLI::App& command, core::DevelopmentRules& rules, int& min_cells) {
   command.add_option("--steps-of-development", rules.steps, "Length of the whole development")

@@ -15,7 +15,8 @@ namespace metamorph::evolve {
 /// Checks of an option's value that say what was expected: "moon: expected water, land or slope".
 CLI::Validator one_of(std::vector<std::string> names);
 CLI::Validator integer_from(int low, int high);
-CLI::Validator number_from(double low, double high);
+/// `or_word`, if not empty, is taken as well.
+CLI::Validator number_from(double low, double high, std::string or_word = "");
 
 /// The rules by which a genome develops.
 void add_development_options(CLI::App& command, core::DevelopmentRules& rules, int& min_cells);

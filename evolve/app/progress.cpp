@@ -44,6 +44,15 @@ void Progress::generation_done(const GenerationReport& report) {
     distances += fmt::format("{}{} {:.2f}", t == 0 ? "" : ", ", report.experiment.trials[t].name,
                              report.best.distances[t]);
   }
+  if (const int near = count_near_step_limit(report.result); near > 0 && !warned_of_steps_) {
+    warned_of_steps_ = true;
+    if (line_open_) fmt::print(stderr, "\n");
+    fmt::print(
+        stderr,
+        "warning: evaluations {}: {} in generation {} (told once); step = \"auto\" chooses it for "
+        "each body\n",
+        near_limit_text(), near, generation + 1);
+  }
   const std::string line =
       fmt::format("generation {}/{}  best so far {:.3f} d ({})  {:.0f} evaluations/s  {}{}",
                   generation + 1, total, report.best.eq6, distances, rate,
@@ -86,6 +95,9 @@ void Progress::finished(const RunSummary& summary) {
     }
   }
   fmt::print(stderr, "evaluations by status: {}\n", statuses);
+  if (summary.near_step_limit > 0) {
+    fmt::print(stderr, "evaluations {}: {}\n", near_limit_text(), summary.near_step_limit);
+  }
 }
 
 }  // namespace metamorph::evolve

@@ -21,6 +21,7 @@ class Progress : public Reporter {
 
   bool terminal_;
   bool line_open_ = false;
+  bool warned_of_steps_ = false;
   int first_generation_ = 0;
   std::int64_t evaluations_ = 0;
   double last_log_ = 0;

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "core/automatic_step.h"
 #include "core/locomotion.h"
+#include "core/stability.h"
 #include "evolve/app/commands.h"
 #include "evolve/app/options.h"
 #include "evolve/files/animat_file.h"
@@ -23,7 +25,7 @@ namespace {
 struct SimulateOptions {
   std::vector<std::string> inputs;
   std::string scene = "water";
-  double step = 0;  ///< 0: the scene's own
+  std::string step;  ///< "": the scene's own; a number or "auto"
   int run_steps = 3000;
   core::LocomotionOptions locomotion;
   BodyChoice choice;
@@ -36,7 +38,11 @@ struct SimulateOptions {
 
 core::Scene scene_of(const SimulateOptions& options) {
   core::Scene scene = scene_named(options.scene);
-  if (options.step > 0) scene.step = options.step;
+  if (options.step == "auto") {
+    scene.step = scene.settle_step = core::automatic_step;
+  } else if (!options.step.empty()) {
+    scene.step = std::stod(options.step);
+  }
   scene.run_steps = options.run_steps;
   return scene;
 }
@@ -75,9 +81,33 @@ std::vector<core::Outcome> simulate_all(const std::vector<Animat>& animats,
   return outcomes;
 }
 
-core::Outcome simulate_with_trajectory(const Animat& animat, const core::Scene& scene,
+/// Before the first step: which fixed steps come close to their limit. One line for all bodies.
+void warn_of_steps(const std::vector<Animat>& animats, const core::Scene& scene,
+                   core::Method method) {
+  std::size_t bodies = 0, close = 0;
+  std::string first;
+  for (const Animat& animat : animats) {
+    if (animat.status != core::Status::ok || !core::check(animat.body).empty()) continue;
+    ++bodies;
+    const core::Scene own = core::with_chosen_steps(animat.body, scene, method);
+    const core::StepFinding found = core::assess_steps(animat.body, own, method);
+    if (found.use != core::StepUse::close || ++close > 1) continue;
+    const core::StepPhase phase = core::step_phase(own, method, found.settling);
+    const double limit = core::step_limit(animat.body, own, phase.damping, phase.method).sharp;
+    first = fmt::format(
+        "{}: {}step {} is {:.0f} % of the largest stable one, {:.3g}: expected at most {:.0f} %",
+        animat.name, found.settling ? "settling " : "", phase.step, 100 * phase.step / limit, limit,
+        100 * phase.margin);
+  }
+  if (close == 0) return;
+  fmt::print(stderr, "warning: {}{}; --dt auto chooses one\n", first,
+             close == 1 ? "" : fmt::format(", and so for {} of {} bodies", close, bodies));
+}
+
+core::Outcome simulate_with_trajectory(const Animat& animat, const core::Scene& given,
                                        const SimulateOptions& options) {
   if (animat.status != core::Status::ok) return without_body(animat.status);
+  const core::Scene scene = core::with_chosen_steps(animat.body, given, options.locomotion.method);
   TrajectoryWriter writer(options.trajectory, options.overwrite ? Overwrite::yes : Overwrite::no);
   const int paper_step = std::max(1, static_cast<int>(std::lround(core::paper_step / scene.step)));
   const core::Outcome outcome = core::simulate_observed(
@@ -90,16 +120,17 @@ core::Outcome simulate_with_trajectory(const Animat& animat, const core::Scene& 
 void print_table(const std::vector<Animat>& animats, const std::vector<core::Outcome>& outcomes) {
   std::size_t width = 4;
   for (const Animat& animat : animats) width = std::max(width, animat.name.size());
-  fmt::print("{:<{}}  {:<14} {:>10} {:>9} {:>9} {:>5} {:>7} {:>9} {:>8} {:>7} {:>8} {:>9}\n",
+  fmt::print("{:<{}}  {:<14} {:>10} {:>9} {:>9} {:>5} {:>7} {:>9} {:>6} {:>8} {:>7} {:>8} {:>9}\n",
              "file", width, "status", "distance/d", "x/d", "y/d", "cells", "springs", "triangles",
-             "steps", "settle", "min S/S0", "max speed");
+             "step", "steps", "settle", "min S/S0", "max speed");
   for (std::size_t i = 0; i < animats.size(); ++i) {
     const core::Outcome& o = outcomes[i];
     fmt::print(
-        "{:<{}}  {:<14} {:>10.4f} {:>9.4f} {:>9.4f} {:>5} {:>7} {:>9} {:>8} {:>7.1f} {:>8.4f} "
+        "{:<{}}  {:<14} {:>10.4f} {:>9.4f} {:>9.4f} {:>5} {:>7} {:>9} {:>6.4g} {:>8} {:>7.1f} "
+        "{:>8.4f} "
         "{:>9.4f}\n",
         animats[i].name, width, core::name(o.status), o.distance, o.mean_position[0],
-        o.mean_position[1], o.cells, o.springs, o.triangles, o.steps, o.settle_time,
+        o.mean_position[1], o.cells, o.springs, o.triangles, o.step, o.steps, o.settle_time,
         o.min_area_ratio, o.max_speed);
     if (o.status == core::Status::step_too_large) {
       fmt::print("{:<{}}  the largest stable step for this body is {:.3g}\n", "", width,
@@ -117,6 +148,7 @@ void simulate_command(const SimulateOptions& options) {
   }
   const std::vector<Animat> animats = animats_of(options);
   const core::Scene scene = scene_of(options);
+  warn_of_steps(animats, scene, options.locomotion.method);
   std::vector<core::Outcome> outcomes;
   if (options.trajectory.empty()) {
     outcomes = simulate_all(animats, scene, options.locomotion);
@@ -152,9 +184,13 @@ void add_simulate_command(CLI::App& app) {
   command->add_option("--steps", options->run_steps, "Length of the run, in paper steps of 0.2")
       ->check(integer_from(1, 100000000))
       ->option_text("STEPS [3000]");
-  command->add_option("--dt", options->step, "Step of the integrator, in time units")
-      ->check(number_from(1e-6, 10))
-      ->option_text("TIME [0.2 in water, 0.1 on land]");
+  command
+      ->add_option(
+          "--dt", options->step,
+          "Step of the integrator, in time units; auto: chosen for each body from its stiffness, "
+          "also while it settles")
+      ->check(number_from(1e-6, 10, "auto"))
+      ->option_text("TIME|auto [0.2 in water, 0.1 on land]");
   add_locomotion_options(*command, options->locomotion);
   command->add_option("--threads", options->locomotion.threads, "Threads; 0 for all there are")
       ->check(integer_from(0, 4096))

@@ -50,6 +50,11 @@ bool assign(const Key& key, const toml::node& node) {
       *field = value;
       return true;
     }
+    bool operator()(const Step& step) const {
+      if (node.value_exact<std::string>() != "auto") return (*this)(step.value);
+      *step.value = core::automatic_step;
+      return true;
+    }
     bool operator()(bool* field) const {
       if (!node.is_boolean()) return false;
       *field = *node.value<bool>();

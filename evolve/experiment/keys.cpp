@@ -166,12 +166,12 @@ Section scene_section(NamedScene& named) {
            {"self_collision", &s.self_collision, 0, 0, "the outline repels itself"},
            {"collision_stiffness", &s.collision_stiffness, 0, 1e6, "k_s"},
            {"collision_gap", &s.collision_gap, 0, 1e3, "d"},
-           {"step", &s.step, 1e-6, 10, "time units per integrator step"},
+           {"step", Step{&s.step}, 1e-6, 10, "time units per integrator step; auto: by body"},
            {"run_steps", &s.run_steps, 1, no_limit, "actuation, ramp included, steps"},
            {"ramp_steps", &s.ramp_steps, 0, no_limit, "steps over which actuation starts"},
            {"distance", choice(s.distance, {"euclidean", "horizontal", "rightward"}), 0, 0,
             "what counts as distance"},
-           {"settle_step", &s.settle_step, 1e-6, 10, "time units per step while settling"},
+           {"settle_step", Step{&s.settle_step}, 1e-6, 10, "time units per step while settling"},
            {"settle_damping", &s.settle_damping, 0, 1e6, "c while settling"},
            {"settle_drag", &s.settle_drag, 0, 1e6, "drag per node while settling"},
            {"settle_speed", &s.settle_speed, 0, 1e6, "quiet below this, d per time unit"},
@@ -207,6 +207,9 @@ std::string expectation(const Key& key) {
     std::string operator()(const double*) const {
       return "a number " + range_text(key.low, key.high);
     }
+    std::string operator()(const Step&) const {
+      return "a number " + range_text(key.low, key.high) + " or \"auto\"";
+    }
     std::string operator()(const bool*) const { return "true or false"; }
     std::string operator()(const std::string*) const {
       return "a name of letters, digits, '-', '_' and '.', in quotes";
@@ -227,6 +230,9 @@ std::string value_text(const Key& key) {
     std::string operator()(const int* value) const { return std::to_string(*value); }
     std::string operator()(const std::uint64_t* value) const { return std::to_string(*value); }
     std::string operator()(const double* value) const { return fmt::format("{}", *value); }
+    std::string operator()(const Step& step) const {
+      return *step.value == core::automatic_step ? "\"auto\"" : fmt::format("{}", *step.value);
+    }
     std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
     std::string operator()(const std::string* value) const { return '"' + *value + '"'; }
     std::string operator()(const Choice& c) const {

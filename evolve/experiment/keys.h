@@ -18,11 +18,16 @@ struct Choice {
   std::function<void(std::size_t)> set;
 };
 
+/// A step: a number, or "auto" for core::automatic_step.
+struct Step {
+  double* value;
+};
+
 /// One key of an experiment file: what it is called, where its value lives and what is allowed.
 /// Reading, --set, the configuration in the record and the help are all driven by these.
 struct Key {
   std::string_view name;
-  std::variant<int*, std::uint64_t*, double*, bool*, std::string*, Choice> field;
+  std::variant<int*, std::uint64_t*, double*, bool*, std::string*, Choice, Step> field;
   double low = 0, high = 0;  ///< range of a number, both ends included
   std::string_view help;     ///< what it is, with its unit
 };

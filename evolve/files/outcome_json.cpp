@@ -15,6 +15,8 @@ std::string outcome_json(const std::vector<std::pair<std::string, std::string>>&
   object["springs"] = outcome.springs;
   object["triangles"] = outcome.triangles;
   object["steps"] = outcome.steps;
+  object["step"] = outcome.step;
+  if (outcome.settle_step > 0) object["settle_step"] = outcome.settle_step;
   object["settle_time"] = outcome.settle_time;
   object["min_area_ratio"] = outcome.min_area_ratio;
   object["max_speed"] = outcome.max_speed;

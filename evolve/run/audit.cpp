@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/automatic_step.h"
 #include "core/development.h"
 #include "core/extract_body.h"
 #include "core/reference_simulation.h"
@@ -60,9 +61,10 @@ core::Extraction body_of(const Genome& genome, const Experiment& experiment, int
 /// Fills what goes beyond the replay.
 void compare(TrialAudit& audited, const Genome& genome, const Experiment& experiment,
              const Trial& trial, const AuditOptions& options) {
-  const core::Scene& scene = experiment.scene_of(trial);
   const core::Extraction extraction = body_of(genome, experiment, trial.stage);
   if (extraction.status != core::Status::ok) return;
+  const core::Scene scene = core::with_chosen_steps(extraction.body, experiment.scene_of(trial),
+                                                    experiment.locomotion.method);
   audited.compared = true;
   core::ReferenceOptions reference;
   reference.step = scene.step / reference_refinement;

@@ -31,6 +31,16 @@ std::array<int, core::status_count> count_statuses(const GenerationResult& resul
   return counts;
 }
 
+int count_near_step_limit(const GenerationResult& result) {
+  int count = 0;
+  for (const Evaluated& individual : result.individuals) {
+    for (const core::Outcome& outcome : individual.evaluation.trials) {
+      count += outcome.near_step_limit ? 1 : 0;
+    }
+  }
+  return count;
+}
+
 std::size_t best_position(const std::vector<double>& eq6, const std::vector<double>& scores) {
   std::size_t best = 0;
   for (std::size_t i = 1; i < eq6.size(); ++i) {

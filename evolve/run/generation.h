@@ -39,6 +39,9 @@ struct GenerationResult {
 /// out.
 std::array<int, core::status_count> count_statuses(const GenerationResult& result, int trial = -1);
 
+/// Evaluations whose step came closer to its limit than the margin (core/stability.h).
+int count_near_step_limit(const GenerationResult& result);
+
 /// Position of the highest eq 6; ties go to the higher score, then to the lower position.
 std::size_t best_position(const std::vector<double>& eq6, const std::vector<double>& scores);
 

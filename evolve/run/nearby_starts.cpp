@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/automatic_step.h"
 #include "core/random.h"
 
 namespace metamorph::evolve {
@@ -78,11 +79,13 @@ core::Body displaced(core::Body body, int start, double displacement) {
 NearbyStarts run_nearby_starts(const core::Body& body, const core::Scene& scene,
                                core::Method method, int starts, double displacement) {
   NearbyStarts result;
-  const Course unchanged = run_course(body, scene, method);
+  // All take the same steps, or the difference would be one of steps as well.
+  const core::Scene own = core::with_chosen_steps(body, scene, method);
+  const Course unchanged = run_course(body, own, method);
   if (core::is_failure(unchanged.outcome.status)) return result;
   result.predictable_for = unchanged.time.back();
   for (int s = 0; s < starts; ++s) {
-    const Course changed = run_course(displaced(body, s, displacement), scene, method);
+    const Course changed = run_course(displaced(body, s, displacement), own, method);
     ++result.starts;
     if (core::is_failure(changed.outcome.status)) {
       ++result.failed;

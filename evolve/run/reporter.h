@@ -34,6 +34,7 @@ struct RunSummary {
   PhaseSeconds seconds;                            ///< of this session
   EvaluationWork work;                             ///< of this session
   std::array<int, core::status_count> statuses{};  ///< of this session
+  int near_step_limit = 0;                         ///< evaluations, of this session
 };
 
 /// Somebody who wants to know how a run goes. All calls come from the thread that runs it. What a

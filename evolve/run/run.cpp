@@ -108,6 +108,7 @@ RunSummary run(Record& record, const RunOptions& options) {
 
     const auto counts = count_statuses(result);
     for (std::size_t s = 0; s < counts.size(); ++s) summary.statuses[s] += counts[s];
+    summary.near_step_limit += count_near_step_limit(result);
     summary.seconds += seconds;
     summary.work += result.work;
     const GenerationReport report{experiment, population,

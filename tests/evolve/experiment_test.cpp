@@ -147,6 +147,8 @@ TEST(Experiment, NoTwoKeysShareAField) {
           [&](const auto& field) {
             if constexpr (std::is_pointer_v<std::decay_t<decltype(field)>>) {
               EXPECT_TRUE(fields.insert(field).second) << section.path << "." << key.name;
+            } else if constexpr (std::is_same_v<std::decay_t<decltype(field)>, Step>) {
+              EXPECT_TRUE(fields.insert(field.value).second) << section.path << "." << key.name;
             }
           },
           key.field);
@@ -188,6 +190,22 @@ RC_GTEST_PROP(Experiment, AnyNumbersSurviveTheRoundTrip, ()) {
         RC_ASSERT(value_text(a[s].keys[k]) == value_text(b[s].keys[k]));
       }
     }
+  }
+}
+
+TEST(Experiment, StepsMayBeLeftToTheProgram) {
+  const std::vector<Override> automatic = {{"--set", "scenes.*.step", "auto"},
+                                           {"--set", "scenes.land.settle_step", "auto"}};
+  const Experiment e = parse_experiment(good, "x.toml", automatic);
+  for (const Trial& trial : e.trials) EXPECT_EQ(e.scene_of(trial).step, core::automatic_step);
+  EXPECT_EQ(e.scene_of(e.trials[0]).settle_step, core::water_scene().settle_step);
+  EXPECT_EQ(e.scene_of(e.trials[1]).settle_step, core::automatic_step);
+  EXPECT_THAT(to_toml(e), HasSubstr("step = \"auto\""));
+  EXPECT_EQ(to_toml(parse_experiment(to_toml(e), "again")), to_toml(e));
+  for (const char* wrong : {"Auto", "0", "-1", "true", "11", "nan"}) {
+    EXPECT_THAT(faults_of(good, {{"--set", "scenes.*.step", wrong}}),
+                ElementsAre(HasSubstr("expected a number from 1e-06 to 10 or \"auto\"")))
+        << wrong;
   }
 }
 

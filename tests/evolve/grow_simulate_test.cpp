@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <sstream>
 
+#include "core/automatic_step.h"
 #include "core/locomotion.h"
+#include "core/stability.h"
 #include "evolve/files/animat_file.h"
 #include "evolve/files/body_file.h"
 #include "evolve/files/genome_file.h"
@@ -16,6 +19,7 @@
 namespace metamorph::evolve {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -101,7 +105,9 @@ TEST_F(Program, RefusesInOneLine) {
   expect_fault("simulate disc.json --precision double",
                "metamorph simulate: --precision: double: expected float32 or float64" + see);
   expect_fault("simulate disc.json --dt 0",
-               "metamorph simulate: --dt: 0: expected a number from 1e-06 to 10" + see);
+               "metamorph simulate: --dt: 0: expected a number from 1e-06 to 10 or auto" + see);
+  expect_fault("simulate disc.json --dt Auto",
+               "metamorph simulate: --dt: Auto: expected a number from 1e-06 to 10 or auto" + see);
   expect_fault("simulate disc.json --steps 1e3",
                "metamorph simulate: --steps: 1e3: expected an integer from 1 to 100000000" + see);
   expect_fault("simulate disc.json --stage 1300",
@@ -188,6 +194,56 @@ TEST_F(Program, ABodyMovesAsItsGenomeDoes) {
   EXPECT_EQ(genome, body);
   EXPECT_EQ(lines[2]["status"], "empty");
   EXPECT_EQ(lines[3]["status"], "no_body");
+}
+
+TEST_F(Program, SimulateChoosesStepsIfTold) {
+  const auto result = run("simulate disc.json --scene land --dt auto --steps 50 --json");
+  EXPECT_EQ(result.err, "");
+  const auto lines = json_lines(result.out);
+  ASSERT_EQ(lines.size(), 1u);
+  core::Scene scene = core::land_scene();
+  scene.run_steps = 50;
+  scene.step = scene.settle_step = core::automatic_step;
+  scene = core::with_chosen_steps(tests::disc_body(19), scene, core::Method::drift_kick_drift);
+  EXPECT_EQ(lines[0]["step"], scene.step);
+  EXPECT_EQ(lines[0]["settle_step"], scene.settle_step);
+  // 10 time units in steps that meet their end, after those of settling.
+  EXPECT_EQ(lines[0]["steps"],
+            std::lround(lines[0]["settle_time"].get<double>() / scene.settle_step) +
+                std::lround(10 / scene.step));
+  // The trajectory tells the times that it took.
+  EXPECT_EQ(run("simulate disc.json --dt auto --steps 50 --trajectory t.csv").exit_code, 0);
+  std::string last, line;
+  std::istringstream file(tests::text_of(here() / "t.csv"));
+  while (std::getline(file, line)) last = line;
+  EXPECT_NEAR(std::stod(last.substr(last.find(',') + 1)), 10, 2 * core::paper_step);
+}
+
+TEST_F(Program, SimulateWarnsOfStepsNearTheLimit) {
+  const core::Body body = tests::disc_body(19);
+  const auto limit = [&](double damping) {
+    return core::step_limit(body, core::water_scene(), damping, core::Method::drift_kick_drift)
+        .sharp;
+  };
+  const double water = limit(core::water_scene().damping);
+  const auto simulate = [&](double step, const std::string& more) {
+    return run("simulate disc.json --steps 20 --dt " + std::to_string(step) + " " + more);
+  };
+  EXPECT_THAT(simulate(0.93 * water, "").err_lines(),
+              ElementsAre(AllOf(StartsWith("warning: disc.json: step "),
+                                HasSubstr("is 93 % of the largest stable one"),
+                                HasSubstr("expected at most 90 %; --dt auto"))));
+  EXPECT_THAT(simulate(0.55 * water, "--scene land").err_lines(),
+              ElementsAre(AllOf(HasSubstr("is 55 % of"), HasSubstr("expected at most 50 %"))));
+  // Many bodies, one line.
+  EXPECT_THAT(simulate(0.93 * water, "disc.json disc.json").err_lines(),
+              ElementsAre(HasSubstr("and so for 3 of 3 bodies")));
+  EXPECT_EQ(simulate(0.85 * water, "").err, "");
+  EXPECT_EQ(simulate(0.45 * water, "--scene land").err, "");
+  // Beyond the limit the outcome says it, no warning is needed.
+  const auto refused = simulate(1.1 * water, "");
+  EXPECT_EQ(refused.err, "");
+  EXPECT_THAT(refused.out, HasSubstr("step_too_large"));
 }
 
 TEST_F(Program, SimulatePrintsWhatTheLibrarySays) {
