@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,8 +22,8 @@ class NeighbourTable {
    public:
     struct Iterator {
       const std::uint32_t* at;
-      std::uint32_t record_bytes;
-      int operator*() const { return static_cast<int>(*at / record_bytes); }
+      int record_bits;
+      int operator*() const { return static_cast<int>(*at >> record_bits); }
       Iterator& operator++() {
         at += kernels::cell_lanes;
         return *this;
@@ -30,21 +31,21 @@ class NeighbourTable {
       bool operator!=(const Iterator& other) const { return at != other.at; }
     };
     List() = default;
-    List(const std::uint32_t* first, int count, std::uint32_t record_bytes)
-        : first_(first), count_(count), record_bytes_(record_bytes) {}
-    Iterator begin() const { return {first_, record_bytes_}; }
-    Iterator end() const { return {first_ + count_ * kernels::cell_lanes, record_bytes_}; }
+    List(const std::uint32_t* first, int count, int record_bits)
+        : first_(first), count_(count), record_bits_(record_bits) {}
+    Iterator begin() const { return {first_, record_bits_}; }
+    Iterator end() const { return {first_ + count_ * kernels::cell_lanes, record_bits_}; }
     int size() const { return count_; }
 
    private:
     const std::uint32_t* first_ = nullptr;
     int count_ = 0;
-    std::uint32_t record_bytes_ = 1;
+    int record_bits_ = 0;
   };
 
   /// record_bytes: size of the records that the mechanics kernel works on, a power of two.
   explicit NeighbourTable(std::size_t record_bytes)
-      : record_bytes_(static_cast<std::uint32_t>(record_bytes)) {}
+      : record_bits_(std::countr_zero(record_bytes)) {}
 
   /// So many cells, none of them linked.
   void reset(Index cells);
@@ -62,7 +63,7 @@ class NeighbourTable {
 
   Index cell_count() const { return static_cast<Index>(degree_.size()); }
   List of(Index cell) const {
-    return {slots_.data() + place(cell), degree_[static_cast<std::size_t>(cell)], record_bytes_};
+    return {slots_.data() + place(cell), degree_[static_cast<std::size_t>(cell)], record_bits_};
   }
   /// i < j, ascending.
   std::vector<std::array<Index, 2>> links() const;
@@ -79,13 +80,13 @@ class NeighbourTable {
     return static_cast<std::size_t>(group * capacity_ * kernels::cell_lanes + lane);
   }
   std::uint32_t offset(Index cell) const {
-    return static_cast<std::uint32_t>(cell) * record_bytes_;
+    return static_cast<std::uint32_t>(cell) << record_bits_;
   }
   void insert(Index cell, Index neighbour);
   void erase(Index cell, Index neighbour);
   void widen();
 
-  std::uint32_t record_bytes_;
+  int record_bits_;
   int capacity_ = 12;  // slots of each group
   std::vector<int> degree_;
   std::vector<int> first_slot_, end_slot_;  // [groups] see kernels::CellRings
