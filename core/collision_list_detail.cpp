@@ -3,30 +3,27 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <utility>
 
 namespace metamorph::core {
 
 namespace {
-/// Width of the skin, d. A wider one is renewed less often and holds more pairs; results do not
-/// depend on it.
-constexpr double skin = 1.0;
+/// Widths of the skins, d: of the blocks and of the pairs. A wider one is renewed less often and
+/// holds more; results do not depend on them. Chosen for the cycles that evolved bodies take.
+constexpr double wide_skin = 3.0;
+constexpr double narrow_skin = 0.5;
+constexpr double room = 1.001;  ///< for rounding
 }  // namespace
 
 template <class T>
 void CollisionList<T>::reset(const Body& body, const Scene& scene, std::span<const Index> nodes,
                              std::span<const std::array<std::uint32_t, 2>> edges) {
-  constexpr auto width = static_cast<std::size_t>(kernels::Lanes<T>::width);
-  body_ = &body;
   gap_ = static_cast<T>(scene.collision_gap);
-  skin_ = static_cast<T>(skin);
-  valid_ = false;
   nodes_ = nodes;
-  groups_ = static_cast<int>((nodes.size() + width - 1) / width);
-  const auto groups = static_cast<std::size_t>(groups_);
-  x_.resize(groups * width);
-  y_.resize(groups * width);
-  count_ = 0;
+  edges_ = edges.size();
+  const std::size_t groups = (nodes.size() + width - 1) / width;
+  // The blocks must hold all pairs that a list made of them needs.
+  block_watch_.reset(static_cast<int>(groups), static_cast<T>((wide_skin - narrow_skin) / 2));
+  pair_watch_.reset(static_cast<int>(groups), static_cast<T>(narrow_skin / 2));
   // No more pairs than these can come up, so that nothing is allocated while it runs.
   const std::size_t most = nodes.size() * edges.size() + width;
   if (pair_node_.size() < most) {
@@ -35,135 +32,172 @@ void CollisionList<T>::reset(const Body& body, const Scene& scene, std::span<con
     pair_second_.resize(most);
     pair_threshold_.resize(most);
   }
+  line_up(edges);
+  list_all_blocks(edges);
+  find_close_at_rest(body, edges);
+}
 
-  // Outline nodes fill the first lanes, in order.
-  edges_.clear();
-  for (const auto& [first, second] : edges) {
-    edges_.push_back({first, second, nodes[first], nodes[second]});
+/// Puts the nodes in the order of walks along the outline.
+template <class T>
+void CollisionList<T>::line_up(std::span<const Edge> edges) {
+  const std::size_t filled = (edges.size() + width - 1) / width * width;
+  first_.assign(filled, 0);
+  second_.assign(filled, 0);
+  circles_.resize(filled);
+  std::vector<std::vector<std::uint32_t>> leaving(nodes_.size());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    first_[e] = kernels::record_offset<T>(edges[e][0]);
+    second_[e] = kernels::record_offset<T>(edges[e][1]);
+    leaving[edges[e][0]].push_back(edges[e][1]);
   }
 
-  std::vector<std::vector<std::size_t>> incident(nodes.size());
+  node_.clear();
+  std::vector<bool> seen(nodes_.size());
+  place_.resize(nodes_.size());
+  for (std::size_t start = 0; start < nodes_.size(); ++start) {
+    std::size_t n = start;
+    while (true) {
+      if (!seen[n]) {
+        seen[n] = true;
+        place_[n] = node_.size();
+        node_.push_back(kernels::record_offset<T>(static_cast<std::uint32_t>(n)));
+      }
+      if (leaving[n].empty()) break;
+      const std::uint32_t next = leaving[n].back();
+      leaving[n].pop_back();
+      n = next;
+    }
+  }
+  node_.resize((node_.size() + width - 1) / width * width, 0);
+  x_.resize(node_.size());
+  y_.resize(node_.size());
+}
+
+/// With the nodes that may collide with the edge.
+template <class T>
+void CollisionList<T>::list_all_blocks(std::span<const Edge> edges) {
+  all_.clear();
+  for (std::uint32_t e = 0; e < edges.size(); ++e) {
+    for (std::uint32_t place = 0; place < node_.size(); place += width)
+      all_.push_back({e, place, 0});
+  }
+  wide_.resize(all_.size() + 1);
+  narrow_.resize(all_.size() + 1);
+
+  std::vector<std::vector<std::size_t>> incident(nodes_.size());
   for (std::size_t e = 0; e < edges.size(); ++e) {
     incident[edges[e][0]].push_back(e);
     incident[edges[e][1]].push_back(e);
+    for (const std::size_t p : place_) block(e, p).lanes |= lane(p);
   }
-  allowed_.assign(edges.size() * groups, 0);
-  const auto bit = [&](std::size_t edge,
-                       std::size_t node) -> std::pair<std::uint32_t&, std::uint32_t> {
-    return {allowed_[edge * groups + node / width], 1u << (node % width)};
-  };
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-      const auto [word, lane] = bit(e, n);
-      word |= lane;
-    }
-  }
-  const auto forbid = [&](std::size_t edge, std::size_t node) {
-    const auto [word, lane] = bit(edge, node);
-    word &= ~lane;
-  };
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    for (const std::size_t first : incident[n]) {
-      forbid(first, n);
-      const std::size_t other = edges[first][0] == n ? edges[first][1] : edges[first][0];
-      for (const std::size_t second : incident[other]) forbid(second, n);
-    }
-  }
-  find_close_at_rest();
-}
-
-template <class T>
-void CollisionList<T>::find_close_at_rest() {
-  constexpr auto width = static_cast<std::size_t>(kernels::Lanes<T>::width);
-  const auto groups = static_cast<std::size_t>(groups_);
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
-    x_[n] = static_cast<T>(body_->x[static_cast<std::size_t>(nodes_[n])]);
-    y_[n] = static_cast<T>(body_->y[static_cast<std::size_t>(nodes_[n])]);
-  }
-  close_at_rest_.assign(edges_.size() * groups, 0);
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    const auto a = edges_[e].first, b = edges_[e].second;
-    for (std::size_t g = 0; g < groups; ++g) {
-      close_at_rest_[e * groups + g] =
-          kernels::near_segment(x_.data() + g * width, y_.data() + g * width, x_[a], y_[a], x_[b],
-                                y_[b], gap_ * T(1.001)) &
-          allowed_[e * groups + g];
+    const std::size_t p = place_[n];
+    for (const std::size_t first : incident[n]) {
+      block(first, p).lanes &= ~lane(p);
+      const std::size_t other = edges[first][0] == n ? edges[first][1] : edges[first][0];
+      for (const std::size_t second : incident[other]) block(second, p).lanes &= ~lane(p);
     }
   }
 }
 
 template <class T>
-bool CollisionList<T>::stale(const kernels::NodeRecord<T>* records, const T* weight) {
-  if (!valid_) return true;
-  if (nodes_.empty()) return false;
-  // A rigid motion brings no two points closer: only what is left of the motion without it counts,
-  // so that a body may swim and roll as far as it likes. Any rigid motion will do; it is fitted
-  // anew when the last one no longer does.
-  const auto too_far = [&] {
-    const T moved2 =
-        kernels::farthest_move2(records, x_.data(), y_.data(), weight, groups_, motion_);
-    return !(moved2 < skin_ * skin_ / 4);
-  };
-  if (!too_far()) return false;
-  motion_ = kernels::fit_rigid_motion(records, x_.data(), y_.data(), weight, groups_);
-  return too_far();
+void CollisionList<T>::find_close_at_rest(const Body& body, std::span<const Edge> edges) {
+  using Pack = kernels::Lanes<double>;
+  const auto x = [&](std::size_t n) { return body.x[static_cast<std::size_t>(nodes_[n])]; };
+  const auto y = [&](std::size_t n) { return body.y[static_cast<std::size_t>(nodes_[n])]; };
+  close_at_rest_.clear();
+  for (std::size_t e = 0; e < edges_; ++e) {
+    const auto [a, b] = edges[e];
+    const double middle_x = (x(a) + x(b)) / 2, middle_y = (y(a) + y(b)) / 2;
+    const double half = std::hypot(x(b) - x(a), y(b) - y(a)) / 2;
+    const double radius = (static_cast<double>(gap_) + half) * room;
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      const double dx = x(n) - middle_x, dy = y(n) - middle_y;
+      const std::size_t p = place_[n];
+      const bool may_collide = (block(e, p).lanes & lane(p)) != 0;
+      if (!may_collide || dx * dx + dy * dy > radius * radius) continue;
+      const auto nearest = kernels::nearest_on_segment<double>(Pack(x(n)), Pack(y(n)), Pack(x(a)),
+                                                               Pack(y(a)), Pack(x(b)), Pack(y(b)));
+      const auto distance = static_cast<T>(std::sqrt(nearest.distance2[0]));
+      if (distance < gap_) close_at_rest_.push_back({e, p, distance});
+    }
+  }
 }
 
 template <class T>
-void CollisionList<T>::renew(const kernels::NodeRecord<T>* records) {
-  constexpr auto width = static_cast<std::size_t>(kernels::Lanes<T>::width);
-  const auto groups = static_cast<std::size_t>(groups_);
-  count_ = 0;
-  for (std::size_t n = 0; n < groups * width; ++n) {
-    x_[n] = records[n].x;
-    y_[n] = records[n].y;
+T CollisionList<T>::threshold(std::size_t edge, std::size_t place) const {
+  for (const CloseAtRest& pair : close_at_rest_) {
+    if (pair.edge == edge && pair.place == place) return pair.threshold;
   }
-  const T reach = gap_ + skin_ * T(1.001);  // room for rounding
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    const Edge& edge = edges_[e];
-    const auto a = edge.first, b = edge.second;
-    for (std::size_t g = 0; g < groups; ++g) {
-      std::uint32_t near = kernels::near_segment(x_.data() + g * width, y_.data() + g * width,
-                                                 x_[a], y_[a], x_[b], y_[b], reach) &
-                           allowed_[e * groups + g];
-      for (; near != 0; near &= near - 1) {
-        const int lane = std::countr_zero(near);
-        const std::size_t node = g * width + static_cast<std::size_t>(lane);
-        const bool close = (close_at_rest_[e * groups + g] >> lane & 1u) != 0;
-        add(static_cast<std::uint32_t>(node), a, b, close ? distance_at_rest(node, edge) : gap_);
-      }
+  return gap_;
+}
+
+/// Nodes by place and circles of edges with `reach` around them.
+template <class T>
+void CollisionList<T>::measure(const kernels::NodeRecord<T>* records, T reach) {
+  kernels::circle_edges(records, first_.data(), second_.data(),
+                        static_cast<int>(first_.size() / width), reach, circles_.data());
+  for (std::size_t p = 0; p < node_.size(); p += width) {
+    const kernels::NodePack<T> node = kernels::gather(records, node_.data() + p);
+    node.x.store(x_.data() + p);
+    node.y.store(y_.data() + p);
+  }
+}
+
+template <class T>
+void CollisionList<T>::renew_blocks(const kernels::NodeRecord<T>* records) {
+  block_watch_.mark(records);
+  measure(records, gap_ + static_cast<T>(wide_skin * room));
+  wide_end_ = kernels::copy_circled(all_.data(), all_.data() + all_.size(), circles_.data(),
+                                    x_.data(), y_.data(), wide_.data());
+}
+
+template <class T>
+void CollisionList<T>::renew_pairs(const kernels::NodeRecord<T>* records) {
+  pair_watch_.mark(records);
+  const T reach = gap_ + static_cast<T>(narrow_skin * room);
+  measure(records, reach);
+  kernels::CollisionBlock* const begin = narrow_.data();
+  kernels::CollisionBlock* end =
+      kernels::copy_circled(wide_.data(), wide_end_, circles_.data(), x_.data(), y_.data(), begin);
+  end = kernels::copy_near(begin, end, records, first_.data(), second_.data(), x_.data(), y_.data(),
+                           reach, begin);
+  count_ = 0;
+  for (const kernels::CollisionBlock* found = begin; found != end; ++found) {
+    for (std::uint32_t near = found->lanes; near != 0; near &= near - 1) {
+      const std::size_t p = found->place + static_cast<std::size_t>(std::countr_zero(near));
+      add(node_[p], first_[found->edge], second_[found->edge], threshold(found->edge, p));
     }
   }
   while (count_ % width != 0) add(0, 0, 0, T(0));
-  valid_ = true;
-  motion_ = {T(0), T(0), T(0), T(0), T(1), T(0)};
 }
 
-template <class T>
-T CollisionList<T>::distance_at_rest(std::size_t node, const Edge& edge) const {
-  const auto at = [](Index i) { return static_cast<std::size_t>(i); };
-  const std::size_t i = at(nodes_[node]), j = at(edge.a), k = at(edge.b);
-  using Pack = kernels::Lanes<double>;
-  const auto rest =
-      kernels::nearest_on_segment<double>(Pack(body_->x[i]), Pack(body_->y[i]), Pack(body_->x[j]),
-                                          Pack(body_->y[j]), Pack(body_->x[k]), Pack(body_->y[k]));
-  return std::min(gap_, static_cast<T>(std::sqrt(rest.distance2[0])));
-}
-
+/// Pairs of an edge stay sorted by node.
 template <class T>
 void CollisionList<T>::add(std::uint32_t node, std::uint32_t first, std::uint32_t second,
                            T threshold) {
-  pair_node_[count_] = kernels::record_offset<T>(node);
-  pair_first_[count_] = kernels::record_offset<T>(first);
-  pair_second_[count_] = kernels::record_offset<T>(second);
-  pair_threshold_[count_] = threshold;
-  ++count_;
+  std::size_t i = count_++;
+  for (; i > 0 && pair_first_[i - 1] == first && pair_second_[i - 1] == second &&
+         pair_node_[i - 1] > node;
+       --i) {
+    pair_node_[i] = pair_node_[i - 1];
+    pair_first_[i] = pair_first_[i - 1];
+    pair_second_[i] = pair_second_[i - 1];
+    pair_threshold_[i] = pair_threshold_[i - 1];
+  }
+  pair_node_[i] = node;
+  pair_first_[i] = first;
+  pair_second_[i] = second;
+  pair_threshold_[i] = threshold;
 }
 
 template <class T>
 kernels::CollisionPairs<T> CollisionList<T>::pairs(const kernels::NodeRecord<T>* records,
                                                    const T* weight) {
-  if (stale(records, weight)) renew(records);
+  if (!pair_watch_.holds(records, weight)) {
+    if (!block_watch_.holds(records, weight)) renew_blocks(records);
+    renew_pairs(records);
+  }
   return {static_cast<int>(count_), pair_node_.data(), pair_first_.data(), pair_second_.data(),
           pair_threshold_.data()};
 }

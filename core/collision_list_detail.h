@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "core/body_batch_detail.h"
+#include "core/motion_watch_detail.h"
 #include "kernels/self_collision.h"
 
 namespace metamorph::core {
 
 /// Candidate pairs of self-collision for one running animat: every pair of an outline node and an
-/// outline edge that could touch before anything has moved by half the skin. Renewed only then, so
+/// outline edge that could touch before anything has moved by half a skin. Renewed only then, so
 /// that it costs next to nothing while nothing is near, and never misses a pair.
 ///
 /// Excluded are edges that a walk along the outline traverses first or second from the node. Pairs
@@ -22,35 +23,56 @@ class CollisionList {
   void reset(const Body& body, const Scene& scene, std::span<const Index> nodes,
              std::span<const std::array<std::uint32_t, 2>> edges);
 
-  /// The pairs to test at the records' positions; renews the list if it is stale. `weight`: 1, or 0
-  /// in idle lanes.
+  /// Says that every node has moved for a time h, at no more than the speed whose square is in its
+  /// lane of `speed2`. Must be told of all motion.
+  void advance(kernels::Lanes<T> speed2, T h) {
+    const kernels::Lanes<T> way = kernels::Lanes<T>(h) * sqrt(speed2);
+    block_watch_.advance(way);
+    pair_watch_.advance(way);
+  }
+
+  /// The pairs to test at the records' positions, by edge, then node; renews the list if it is
+  /// stale. `weight`: 1, or 0 in idle lanes.
   kernels::CollisionPairs<T> pairs(const kernels::NodeRecord<T>* records, const T* weight);
 
  private:
-  struct Edge {
-    std::uint32_t first, second;  ///< lanes
-    Index a, b;                   ///< nodes of the body
+  using Edge = std::array<std::uint32_t, 2>;  ///< lanes of both ends
+  static constexpr std::size_t width = static_cast<std::size_t>(kernels::Lanes<T>::width);
+
+  struct CloseAtRest {
+    std::size_t edge, place;
+    T threshold;
   };
 
-  bool stale(const kernels::NodeRecord<T>* records, const T* weight);
-  void renew(const kernels::NodeRecord<T>* records);
-  void find_close_at_rest();
-  T distance_at_rest(std::size_t node, const Edge& edge) const;
+  void line_up(std::span<const Edge> edges);
+  void list_all_blocks(std::span<const Edge> edges);
+  void find_close_at_rest(const Body& body, std::span<const Edge> edges);
+  void measure(const kernels::NodeRecord<T>* records, T reach);
+  void renew_blocks(const kernels::NodeRecord<T>* records);
+  void renew_pairs(const kernels::NodeRecord<T>* records);
+  kernels::CollisionBlock& block(std::size_t edge, std::size_t place) {
+    return all_[(edge * node_.size() + place) / width];
+  }
+  static std::uint32_t lane(std::size_t place) { return 1u << (place % width); }
+  T threshold(std::size_t edge, std::size_t place) const;
   void add(std::uint32_t node, std::uint32_t first, std::uint32_t second, T threshold);
 
-  const Body* body_ = nullptr;
-  T gap_ = 0, skin_ = 0;
-  bool valid_ = false;
-  kernels::RigidMotion<T> motion_{};  ///< since renewal, as last fitted
-  int groups_ = 0;                    ///< lane groups that hold outline nodes
-  std::span<const Index> nodes_;
-  std::vector<Edge> edges_;
-  std::vector<std::uint32_t> allowed_;  ///< [edges * groups] lanes that may collide with the edge
-  std::vector<std::uint32_t>
-      close_at_rest_;  ///< [edges * groups] lanes nearer than the gap at rest
-  Aligned<T> x_, y_;   ///< [groups * width] positions at renewal
+  T gap_ = 0;
+  std::span<const Index> nodes_;  ///< of the lanes
+  std::size_t edges_ = 0;
+  // Outline nodes along the contour, so that those of a group are near each other.
+  Aligned<std::uint32_t> node_;            ///< [places, whole groups] record offset
+  std::vector<std::size_t> place_;         ///< [lanes] the inverse
+  Aligned<T> x_, y_;                       ///< [places, whole groups] coordinates at renewal
+  Aligned<std::uint32_t> first_, second_;  ///< [edges, whole groups] record offsets of the ends
+  Aligned<kernels::Circle<T>> circles_;    ///< [edges, whole groups] around them, at renewal
+  std::vector<CloseAtRest> close_at_rest_;
+  std::vector<kernels::CollisionBlock> all_;            ///< by edge, then place
+  std::vector<kernels::CollisionBlock> wide_, narrow_;  ///< those within reach, one more than all
+  kernels::CollisionBlock* wide_end_ = nullptr;
+  MotionWatch<T> block_watch_, pair_watch_;
 
-  // The pairs, by edge, then node; filled up to whole lane groups.
+  // The pairs; filled up to whole lane groups.
   std::size_t count_ = 0;
   Aligned<std::uint32_t> pair_node_, pair_first_, pair_second_;
   Aligned<T> pair_threshold_;

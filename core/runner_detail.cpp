@@ -73,7 +73,12 @@ void Runner<T>::step(std::uint64_t n) {
                                              fx.data(), fy.data()) > 0;
     terms.extra = touched_;
   }
+  const auto before = extremes_.largest_speed2;
+  extremes_.largest_speed2 = kernels::Lanes<T>(T(0));
   step_function<T>(terms)(view_, coefficients_, static_cast<kernels::Turn<T>>(n), extremes_);
+  if (scene_->self_collision) collisions_.advance(extremes_.largest_speed2, coefficients_.step);
+  fastest2_ = extremes_.largest_speed2;
+  extremes_.largest_speed2 = kernels::max(fastest2_, before);
   std::swap(view_.now, view_.next);
 }
 
@@ -86,11 +91,8 @@ bool Runner<T>::settle(Outcome& outcome) {
   const kernels::Lanes<T> quiet2(static_cast<T>(scene.settle_speed * scene.settle_speed));
   std::int64_t quiet = 0, n = 0;
   while (n < most && quiet < quiet_needed) {
-    const auto before = extremes_.largest_speed2;
-    extremes_.largest_speed2 = kernels::Lanes<T>(T(0));
     step(static_cast<std::uint64_t>(n));
-    quiet = all(extremes_.largest_speed2 < quiet2) ? quiet + 1 : 0;
-    extremes_.largest_speed2 = kernels::max(extremes_.largest_speed2, before);
+    quiet = all(fastest2_ < quiet2) ? quiet + 1 : 0;
     ++n;
     outcome.steps = n;
     outcome.settle_time = static_cast<double>(n) * step_;
@@ -123,6 +125,7 @@ void Runner<T>::end_settling() {
     record.x = std::fma(coefficients_.extrapolate, view_.vx[l], record.x);
     record.y = std::fma(coefficients_.extrapolate, view_.vy[l], record.y);
   }
+  if (scene_->self_collision) collisions_.advance(fastest2_, coefficients_.extrapolate);
 }
 
 template <class T>

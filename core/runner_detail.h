@@ -51,6 +51,7 @@ class Runner {
   kernels::Actuation actuation_ = kernels::Actuation::none;  ///< of the phase it is in
   double step_ = 0;                                          ///< time units, of the phase it is in
   bool touched_ = false;                                     ///< the extra forces hold something
+  kernels::Lanes<T> fastest2_{T(0)};  ///< squared, of the last step, each lane for itself
   CollisionList<T> collisions_;
   std::vector<double> frame_[4];
 };

@@ -144,6 +144,17 @@ inline bool all(LaneMask<T> mask) {
   return bits(mask) == (1u << Lanes<T>::width) - 1;
 }
 
+/// bits(a < b), in one instruction where there is one.
+template <class T>
+inline std::uint32_t bits_less(Lanes<T> a, Lanes<T> b) {
+#if defined(__AVX512F__)
+  if constexpr (sizeof(T) == 4) return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OS);
+  if constexpr (sizeof(T) == 8) return _mm512_cmp_pd_mask(a.v, b.v, _CMP_LT_OS);
+#else
+  return bits(a < b);
+#endif
+}
+
 /// The largest lane.
 template <class T>
 inline T largest(Lanes<T> pack) {

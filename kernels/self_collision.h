@@ -38,85 +38,84 @@ inline NearestOnSegment<T> nearest_on_segment(Lanes<T> px, Lanes<T> py, Lanes<T>
   return {share, dx, dy, fma(dx, dx, dy * dy)};
 }
 
-/// A rigid motion that carries points near to where they are now: turn about the first centre, then
-/// move it to the second.
+/// A circle, in one record as nodes have them.
 template <class T>
-struct RigidMotion {
-  T from_x, from_y, to_x, to_y, cosine, sine;
+struct alignas(4 * sizeof(T)) Circle {
+  T x, y, radius2, unused;
 };
 
-/// The rigid motion that fits best how the nodes of `groups` lane groups have moved from (x, y).
-/// `weight` [groups * width] is 0 in idle lanes, else 1.
+/// Circles around outline edges outside which no point is within `reach` of the edge. first, second
+/// [groups * width]: record offsets of the ends.
 template <class T>
-inline RigidMotion<T> fit_rigid_motion(const NodeRecord<T>* records, const T* x, const T* y,
-                                       const T* weight, int groups) {
+inline void circle_edges(const NodeRecord<T>* records, const std::uint32_t* first,
+                         const std::uint32_t* second, int groups, T reach, Circle<T>* circles) {
   using Pack = Lanes<T>;
-  const Pack zero(T(0));
-  Pack count = zero, sum_x = zero, sum_y = zero, sum_u = zero, sum_v = zero;
-  Pack xu = zero, yv = zero, xv = zero, yu = zero;
-  for (int g = 0; g < groups; ++g) {
-    const int base = g * Pack::width;
-    const NodePack<T> now = load(records + base);
-    const Pack w = Pack::load(weight + base);
-    const Pack px = w * Pack::load(x + base), py = w * Pack::load(y + base);
-    const Pack u = w * now.x, v = w * now.y;
-    count += w;
-    sum_x += px;
-    sum_y += py;
-    sum_u += u;
-    sum_v += v;
-    xu = fma(px, u, xu);
-    yv = fma(py, v, yv);
-    xv = fma(px, v, xv);
-    yu = fma(py, u, yu);
+  const Pack half(T(0.5)), margin(T(1.001));  // room for rounding
+  for (int base = 0; base < groups * Pack::width; base += Pack::width) {
+    const NodePack<T> a = gather(records, first + base), b = gather(records, second + base);
+    const Pack ex = b.x - a.x, ey = b.y - a.y;
+    const Pack radius = fma(half, sqrt(fma(ex, ex, ey * ey)), Pack(reach)) * margin;
+    const Pack x = half * (a.x + b.x), y = half * (a.y + b.y), radius2 = radius * radius;
+    for (int l = 0; l < Pack::width; ++l) circles[base + l] = {x[l], y[l], radius2[l], T(0)};
   }
-  const T n = sum(count), from_x = sum(sum_x) / n, from_y = sum(sum_y) / n;
-  const T to_x = sum(sum_u) / n, to_y = sum(sum_v) / n;
-  // Sums of products about the centres: the dot and the cross product of before and now.
-  const T dot = sum(xu) + sum(yv) - n * (from_x * to_x + from_y * to_y);
-  const T cross = sum(xv) - sum(yu) - n * (from_x * to_y - from_y * to_x);
-  const T size = std::sqrt(dot * dot + cross * cross);
-  if (!(size > T(0))) return {from_x, from_y, to_x, to_y, T(1), T(0)};
-  return {from_x, from_y, to_x, to_y, dot / size, cross / size};
 }
 
-/// Largest squared distance of the nodes from where the rigid motion carries (x, y).
-template <class T>
-inline T farthest_move2(const NodeRecord<T>* records, const T* x, const T* y, const T* weight,
-                        int groups, const RigidMotion<T>& motion) {
-  using Pack = Lanes<T>;
-  const Pack cosine(motion.cosine), sine(motion.sine);
-  Pack farthest(T(0));
-  for (int g = 0; g < groups; ++g) {
-    const int base = g * Pack::width;
-    const NodePack<T> now = load(records + base);
-    const Pack px = Pack::load(x + base) - Pack(motion.from_x);
-    const Pack py = Pack::load(y + base) - Pack(motion.from_y);
-    const Pack dx = now.x - Pack(motion.to_x) - fma(cosine, px, -(sine * py));
-    const Pack dy = now.y - Pack(motion.to_y) - fma(sine, px, cosine * py);
-    farthest = max(Pack::load(weight + base) * fma(dx, dx, dy * dy), farthest);
+/// An outline edge and a lane group of outline nodes.
+struct CollisionBlock {
+  std::uint32_t edge;
+  std::uint32_t place;  ///< of the group's first node
+  std::uint32_t lanes;  ///< nodes of the group that matter, as bits
+};
+
+/// Copies the blocks whose lanes(block) are not empty, with these lanes, in order; returns their
+/// end. `to` may be `from`, else it must have room for all. All are written, but few counted: a
+/// branch would often be mispredicted.
+template <class LanesOf>
+inline CollisionBlock* copy_blocks_if(const CollisionBlock* from, const CollisionBlock* end,
+                                      CollisionBlock* to, LanesOf&& lanes_of) {
+  for (; from != end; ++from) {
+    const std::uint32_t lanes = from->lanes & lanes_of(*from);
+    *to = {from->edge, from->place, lanes};
+    to += lanes != 0 ? 1 : 0;
   }
-  return largest(farthest);
+  return to;
 }
 
-/// The lanes of one group whose node lies within `reach` of segment ab, as bits.
+/// Keeps the nodes within their edge's circle. x, y: coordinates of nodes by place.
 template <class T>
-inline std::uint32_t near_segment(const T* x, const T* y, T ax, T ay, T bx, T by, T reach) {
+inline CollisionBlock* copy_circled(const CollisionBlock* from, const CollisionBlock* end,
+                                    const Circle<T>* circles, const T* x, const T* y,
+                                    CollisionBlock* to) {
   using Pack = Lanes<T>;
-  // Most groups are far away: no node can be near if none is in the circle around the segment.
-  const Pack mx((ax + bx) / 2), my((ay + by) / 2), px = Pack::load(x), py = Pack::load(y);
-  const T half = std::sqrt((bx - ax) * (bx - ax) + (by - ay) * (by - ay)) / 2;
-  const T radius = (reach + half) * T(1.001);
-  const Pack dx = px - mx, dy = py - my;
-  if (bits(fma(dx, dx, dy * dy) < Pack(radius * radius)) == 0) return 0;
-  const auto near = nearest_on_segment<T>(px, py, Pack(ax), Pack(ay), Pack(bx), Pack(by));
-  return bits(near.distance2 < Pack(reach * reach));
+  return copy_blocks_if(from, end, to, [=](const CollisionBlock& block) {
+    const Circle<T>& circle = circles[block.edge];
+    const Pack dx = Pack::load(x + block.place) - Pack(circle.x);
+    const Pack dy = Pack::load(y + block.place) - Pack(circle.y);
+    return bits_less(fma(dx, dx, dy * dy), Pack(circle.radius2));
+  });
+}
+
+/// Keeps the nodes within `reach` of their edge.
+template <class T>
+inline CollisionBlock* copy_near(const CollisionBlock* from, const CollisionBlock* end,
+                                 const NodeRecord<T>* records, const std::uint32_t* first,
+                                 const std::uint32_t* second, const T* x, const T* y, T reach,
+                                 CollisionBlock* to) {
+  using Pack = Lanes<T>;
+  return copy_blocks_if(from, end, to, [=](const CollisionBlock& block) {
+    const T* const a = detail::record_at(records, first[block.edge]);
+    const T* const b = detail::record_at(records, second[block.edge]);
+    const auto nearest =
+        nearest_on_segment<T>(Pack::load(x + block.place), Pack::load(y + block.place), Pack(a[0]),
+                              Pack(a[1]), Pack(b[0]), Pack(b[1]));
+    return bits_less(nearest.distance2, Pack(reach * reach));
+  });
 }
 
 /// Adds the elastic penalty of every pair closer than its threshold (MODEL section 4):
 /// k_s (threshold - gap) on the node along the gap, the opposite shared by the edge's ends
-/// barycentrically. Lanes find the pairs that touch; these push one after the other, in order, so
-/// that pairs that do not touch change no bit. Returns how many touch. fx, fy: [lanes of the body].
+/// barycentrically. Computed in lanes, but added one after the other, in order, so that pairs that
+/// do not touch change no bit. Returns how many touch. fx, fy: [lanes of the body].
 template <class T>
 inline int add_collision_forces(const CollisionPairs<T>& pairs, const NodeRecord<T>* records,
                                 T stiffness, T* fx, T* fy) {
@@ -130,21 +129,23 @@ inline int add_collision_forces(const CollisionPairs<T>& pairs, const NodeRecord
     const auto near = nearest_on_segment(p.x, p.y, a.x, a.y, b.x, b.y);
     std::uint32_t touch =
         bits((near.distance2 < threshold * threshold) & (near.distance2 > Pack(T(0))));
+    if (touch == 0) continue;
+    const Pack gap = sqrt(near.distance2);
+    const Pack scale = Pack(stiffness) * (threshold - gap) / gap;
+    const Pack sx = scale * near.dx, sy = scale * near.dy;
+    const Pack first = Pack(T(1)) - near.share;
+    const Pack ax = first * sx, ay = first * sy, bx = near.share * sx, by = near.share * sy;
     for (; touch != 0; touch &= touch - 1) {
       const int lane = std::countr_zero(touch);
-      const T gap = std::sqrt(near.distance2[lane]);
-      const T scale = stiffness * (threshold[lane] - gap) / gap;
-      const T sx = scale * near.dx[lane], sy = scale * near.dy[lane];
-      const T second = near.share[lane], first = T(1) - second;
       const auto at = [&](const std::uint32_t* offset) {
         return offset[base + lane] / record_offset<T>(1);
       };
-      fx[at(pairs.node)] += sx;
-      fy[at(pairs.node)] += sy;
-      fx[at(pairs.first)] -= first * sx;
-      fy[at(pairs.first)] -= first * sy;
-      fx[at(pairs.second)] -= second * sx;
-      fy[at(pairs.second)] -= second * sy;
+      fx[at(pairs.node)] += sx[lane];
+      fy[at(pairs.node)] += sy[lane];
+      fx[at(pairs.first)] -= ax[lane];
+      fy[at(pairs.first)] -= ay[lane];
+      fx[at(pairs.second)] -= bx[lane];
+      fy[at(pairs.second)] -= by[lane];
       ++touching;
     }
   }
