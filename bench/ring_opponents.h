@@ -146,7 +146,7 @@ class RingOpponent {
         coefficients_(core::coefficients_of<T>(scene, core::Method::drift_kick_drift)) {}
 
   void step(double /*time*/, double amplitude) {
-    const kernels::Phasor swing = kernels::phasor(view_.period_advance * count_);
+    const kernels::Phasor swing = kernels::phasor(view_.advance * count_);
     coefficients_.amplitude = static_cast<T>(amplitude);
     coefficients_.swing_sine = static_cast<T>(amplitude * swing.sine);
     coefficients_.swing_cosine = static_cast<T>(amplitude * swing.cosine);
@@ -163,7 +163,7 @@ class RingOpponent {
   int animats() const { return 1; }
 
  private:
-  static constexpr kernels::Terms terms{.drag = true, .actuation = kernels::Actuation::one_period};
+  static constexpr kernels::Terms terms{.drag = true};
 
   core::LocomotionTask task_;
   core::BodyBatch<T> batch_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <numeric>
 
@@ -24,6 +23,22 @@ kernels::Turn<T> fixed_turn(double turns) {
   }
 }
 
+/// The value that comes up most often, the least of them.
+double most_frequent(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  double found = 1;
+  std::ptrdiff_t most = 0;
+  for (auto run = values.begin(); run != values.end();) {
+    const auto end = std::upper_bound(run, values.end(), *run);
+    if (end - run > most) {
+      most = end - run;
+      found = *run;
+    }
+    run = end;
+  }
+  return found;
+}
+
 }  // namespace
 
 /// How one body is laid out: found first for all bodies, so that the arrays can be sized once.
@@ -33,15 +48,25 @@ struct BodyBatch<T>::Plan {
   std::vector<Index> order;         ///< lane -> node
   std::vector<std::uint32_t> lane;  ///< node -> lane
   int outline_nodes = 0;
+  double main_period;
+  std::vector<std::uint8_t> odd;  ///< [nodes] 1 if the oscillator has another period
 
-  explicit Plan(const Body& body) : rings(make_rings(body)) {
+  explicit Plan(const Body& body)
+      : rings(make_rings(body)), main_period(most_frequent(body.period)) {
     order.resize(at(body.node_count()));
     std::iota(order.begin(), order.end(), 0);
+    for (const double period : body.period) odd.push_back(period != main_period);
+    std::vector<std::uint8_t> odd_ring = odd;
+    for (const auto& [a, b] : body.springs) {
+      odd_ring[at(a)] |= odd[at(b)];
+      odd_ring[at(b)] |= odd[at(a)];
+    }
     // Outline nodes in front, then by ring size: lanes of a group have nearly equal work.
     std::sort(order.begin(), order.end(), [&](Index a, Index b) {
       const bool outer_a = rings.edges(a) > 0, outer_b = rings.edges(b) > 0;
       if (outer_a != outer_b) return outer_a;
       if (rings.size(a) != rings.size(b)) return rings.size(a) > rings.size(b);
+      if (odd_ring[at(a)] != odd_ring[at(b)]) return odd_ring[at(a)] < odd_ring[at(b)];
       return a < b;
     });
     lane.resize(order.size());
@@ -63,7 +88,7 @@ struct BodyBatch<T>::Plan {
 
 template <class T>
 BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, int threads)
-    : extent_(tasks.size()), offset_(tasks.size() + 1), rhythm_(tasks.size()) {
+    : extent_(tasks.size()), offset_(tasks.size() + 1), advance_(tasks.size()) {
   const auto count = static_cast<std::int64_t>(tasks.size());
   std::vector<Plan> plans;
   plans.reserve(tasks.size());
@@ -102,6 +127,7 @@ BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, in
   ring_begin_.resize(total.groups);
   ring_size_.resize(total.groups);
   ring_closed_.resize(total.groups);
+  odd_.resize(total.groups);
   closing_area2_.assign(lanes, T(0));
   edge_begin_.resize(total.edge_groups);
   edge_size_.resize(total.edge_groups);
@@ -113,6 +139,8 @@ BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, in
   ring_per_step_.resize(slots);
   swing_sine_.assign(slots, T(0));
   swing_cosine_.assign(slots, T(0));
+  ring_odd_.assign(slots, T(0));
+  node_odd_.assign(lanes, T(0));
   edge_to_first_.assign(total.edge_groups * width, T(0));
   edge_to_last_.assign(total.edge_groups * width, T(0));
   edge_other_.resize(total.edge_slots * width);
@@ -149,19 +177,14 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
   const double first_time = midpoint ? scene.step / 2 : 0;
 
   std::vector<kernels::Turn<T>> start(nodes), per_step(nodes);
-  std::vector<kernels::Phasor> phasor(nodes);
+  std::vector<kernels::Phasor> phasor(nodes, {0, 0});
   for (std::size_t n = 0; n < nodes; ++n) {
     const double turns = first_time / body.period[n] + body.phase[n] / (2 * std::numbers::pi);
     per_step[n] = fixed_turn<T>(scene.step / body.period[n]);
     start[n] = fixed_turn<T>(turns);
-    phasor[n] = kernels::phasor(fixed_turn<double>(turns));
+    if (plan.odd[n] == 0) phasor[n] = kernels::phasor(fixed_turn<double>(turns));
   }
-  Rhythm& rhythm = rhythm_[i];
-  rhythm.one_period = std::adjacent_find(body.period.begin(), body.period.end(),
-                                         std::not_equal_to<>()) == body.period.end();
-  if (rhythm.one_period && nodes > 0) {
-    rhythm.advance = fixed_turn<double>(scene.step / body.period.front());
-  }
+  advance_[i] = fixed_turn<double>(scene.step / plan.main_period);
 
   const auto pressed_area2 = [&](Index triangle) {
     const double area = triangle >= 0 ? body.rest_area[at(triangle)] : 0;
@@ -181,6 +204,7 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
       if (real) {
         node_of_lane_[here] = plan.order[lane];
         inverse_mass_[here] = T(1);
+        node_odd_[here] = T(plan.odd[node]);
         node_start_[here] = start[node];
         node_per_step_[here] = per_step[node];
         records_a_[here] = {static_cast<T>(body.x[node]), static_cast<T>(body.y[node] - lowest),
@@ -204,6 +228,8 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
         ring_per_step_[place] = per_step[at(ring.neighbour)];
         const double rest_length = body.rest_length[at(ring.spring)];
         const kernels::Phasor &own = phasor[node], &other = phasor[at(ring.neighbour)];
+        ring_odd_[place] = T(plan.odd[at(ring.neighbour)]);
+        if (plan.odd[node] + plan.odd[at(ring.neighbour)] > 0) odd_[group] = 1;
         spring_[place] = T(1);
         rest_length_[place] = static_cast<T>(rest_length);
         swing_sine_[place] = static_cast<T>(rest_length * (own.cosine + other.cosine));
@@ -256,6 +282,7 @@ kernels::BodyView<T> BodyBatch<T>::view(std::size_t i) {
   view.nodes = extent.nodes;
   view.groups = extent.groups;
   view.outline_groups = extent.outline_groups;
+  view.odd = odd_.data() + offset.groups;
   view.ring_begin = ring_begin_.data() + offset.groups;
   view.ring_size = ring_size_.data() + offset.groups;
   view.ring_closed = ring_closed_.data() + offset.groups;
@@ -267,8 +294,11 @@ kernels::BodyView<T> BodyBatch<T>::view(std::size_t i) {
   view.ring_oscillator = {ring_start_.data() + slots, ring_per_step_.data() + slots};
   view.swing_sine = swing_sine_.data() + slots;
   view.swing_cosine = swing_cosine_.data() + slots;
-  view.one_period = rhythm_[i].one_period;
-  view.period_advance = rhythm_[i].advance;
+  view.mixed_periods =
+      std::any_of(view.odd, view.odd + extent.groups, [](int odd) { return odd != 0; });
+  view.advance = advance_[i];
+  view.ring_odd = ring_odd_.data() + slots;
+  view.node_odd = node_odd_.data() + lanes;
   view.node_oscillator = {node_start_.data() + lanes, node_per_step_.data() + lanes};
   view.inverse_mass = inverse_mass_.data() + lanes;
   view.edge_begin = edge_begin_.data() + offset.edge_groups;

@@ -46,26 +46,21 @@ class BodyBatch {
   struct Offset {
     std::size_t groups, slots, edge_groups, edge_slots, outline_edges;
   };
-  /// The period that all oscillators of a body share, if they do.
-  struct Rhythm {
-    bool one_period = false;
-    std::uint64_t advance = 0;  ///< of one step, 2^64 being one turn
-  };
   struct Plan;
 
   void fill(std::size_t i, const LocomotionTask& task, const Plan& plan, bool midpoint);
 
   std::vector<Extent> extent_;
   std::vector<Offset> offset_;
-  std::vector<Rhythm> rhythm_;
+  std::vector<std::uint64_t> advance_;  ///< of each body's main period in a step, see BodyView
 
   // [groups of all bodies], [slots], ... each entry `width` wide where lanes are concerned.
-  std::vector<int> ring_begin_, ring_size_, ring_closed_, edge_begin_, edge_size_;
+  std::vector<int> ring_begin_, ring_size_, ring_closed_, odd_, edge_begin_, edge_size_;
   Aligned<std::uint32_t> neighbour_, edge_other_;
   Aligned<T> rest_length_, spring_, rest_area2_, closing_area2_, inverse_mass_, edge_to_first_,
       edge_to_last_, edge_present_;
   Aligned<kernels::Turn<T>> ring_start_, ring_per_step_, node_start_, node_per_step_;
-  Aligned<T> swing_sine_, swing_cosine_;
+  Aligned<T> swing_sine_, swing_cosine_, ring_odd_, node_odd_;
   Aligned<kernels::NodeRecord<T>> records_a_, records_b_;
   Aligned<T> vx_, vy_, extra_fx_, extra_fy_;
   std::vector<Index> node_of_lane_;

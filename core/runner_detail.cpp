@@ -132,7 +132,8 @@ template <class T>
 void Runner<T>::actuate(Outcome& outcome, int every,
                         const std::function<void(const Frame&)>& observe) {
   const Scene& scene = *scene_;
-  actuation_ = view_.one_period ? kernels::Actuation::one_period : kernels::Actuation::own_period;
+  actuation_ =
+      view_.mixed_periods ? kernels::Actuation::mixed_periods : kernels::Actuation::one_period;
   const Mean start = mean_position();
   const std::int64_t count = steps_of(scene.run_steps, scene.step);
   const double ramp = scene.ramp_steps * paper_step;
@@ -143,7 +144,7 @@ void Runner<T>::actuate(Outcome& outcome, int every,
     const double t = (static_cast<double>(n) + offset) * scene.step;
     const double amplitude = scene.amplitude * (t < ramp ? t / ramp : 1.0);
     const auto count_from_start = static_cast<std::uint64_t>(n);
-    const kernels::Phasor swing = kernels::phasor(view_.period_advance * count_from_start);
+    const kernels::Phasor swing = kernels::phasor(view_.advance * count_from_start);
     coefficients_.amplitude = static_cast<T>(amplitude);
     coefficients_.swing_sine = static_cast<T>(amplitude * swing.sine);
     coefficients_.swing_cosine = static_cast<T>(amplitude * swing.cosine);

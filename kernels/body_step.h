@@ -1,5 +1,6 @@
 #pragma once
 
+#include <type_traits>
 #include <utility>
 
 #include "kernels/actuation.h"
@@ -13,9 +14,9 @@ namespace metamorph::kernels {
 
 /// How rest lengths swing, eq 3.
 enum class Actuation : unsigned {
-  none,        ///< settling: they do not, and every node has drag of its own
-  own_period,  ///< every oscillator has a period of its own
-  one_period   ///< all share one (BodyView::one_period): a fraction of the arithmetic
+  none,          ///< settling: they do not, and every node has drag of its own
+  one_period,    ///< all oscillators share the main period: a fraction of the arithmetic
+  mixed_periods  ///< some have another (BodyView::odd); what does not gets the same bits
 };
 
 /// Which terms a step is composed of. A term that is off costs nothing.
@@ -24,7 +25,7 @@ struct Terms {
   bool drag = false;    ///< of outline edges, eq 4 and 5
   bool ground = false;  ///< gravity, contact, friction
   bool extra = false;   ///< forces from outside the step
-  Actuation actuation = Actuation::own_period;
+  Actuation actuation = Actuation::one_period;
 };
 
 /// Every composition of terms has a number, to tabulate them.
@@ -48,7 +49,7 @@ struct StepCoefficients {
   T extrapolate = 0;  ///< h/2: drift-kick-drift; 0: symplectic Euler
   T stiffness = 1, damping = 0, pressure = 0;
   T amplitude = 0;     ///< A r(t), ramp included; set per step
-  T swing_sine = 0;    ///< A r(t) sin(2 pi t/T), for bodies of one period
+  T swing_sine = 0;    ///< A r(t) sin(2 pi t/T), T the body's main period
   T swing_cosine = 0;  ///< A r(t) cos(2 pi t/T)
   T drag_normal = 0, drag_tangential = 0;
   T gravity_x = 0, gravity_y = 0;
@@ -109,19 +110,18 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
       fy = Pack::load(body.extra_fy + node_base);
     }
 
-    Pack own = zero;
-    if constexpr (terms.actuation == Actuation::own_period) {
-      own = fma(amplitude, oscillation(body.node_oscillator, node_base, n), one);
-    }
-
     const auto pull = [&](const NodePack<T>& other, Pack dx, Pack dy, Pack length2,
-                          Pack inverse_length2, int slot) {
+                          Pack inverse_length2, int slot, auto odd, Pack own) {
       Pack rest_length = Pack::load(body.rest_length + slot);
-      if constexpr (terms.actuation == Actuation::own_period) {
-        rest_length *= fma(amplitude, oscillation(body.ring_oscillator, slot, n), own);
-      } else if constexpr (terms.actuation == Actuation::one_period) {
+      if constexpr (terms.actuation != Actuation::none) {
+        const Pack at_rest = rest_length;
         rest_length = fma(swing_sine, Pack::load(body.swing_sine + slot), rest_length);
         rest_length = fma(swing_cosine, Pack::load(body.swing_cosine + slot), rest_length);
+        if constexpr (odd) {
+          const Pack other_end = amplitude * Pack::load(body.ring_odd + slot) *
+                                 oscillation(body.ring_oscillator, slot, n);
+          rest_length = fma(at_rest, own + other_end, rest_length);
+        }
       }
       const Pack tension = spring_tension<T>(dx, dy, other.vx - self.vx, other.vy - self.vy,
                                              sqrt(length2), inverse_length2, rest_length, stiffness,
@@ -146,31 +146,40 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
     const int end_slot = first_slot + lane_index<T>(body.ring_size[g]);
     const NodePack<T> first = state.neighbour(first_slot);
     const Pack first_dx = first.x - self.x, first_dy = first.y - self.y;
-    {
-      const Pack length2 = max(fma(first_dx, first_dx, first_dy * first_dy), tiny);
-      pull(first, first_dx, first_dy, length2, one / length2, first_slot);
-    }
     Pack before_dx = first_dx, before_dy = first_dy;
     Pack last_vx = first.vx, last_vy = first.vy;
-    for (int slot = first_slot + Pack::width; slot < end_slot; slot += Pack::width) {
-      const NodePack<T> other = state.neighbour(slot);
-      const Pack dx = other.x - self.x, dy = other.y - self.y;
-      const Pack length2 = max(fma(dx, dx, dy * dy), tiny);
-      if constexpr (terms.pressure) {
-        // One division serves both 1/l^2 and S0/S.
-        const Pack rest_area2 = Pack::load(body.rest_area2 + slot);
-        const auto present = rest_area2 > zero;
-        const Pack area2 = cross(before_dx, before_dy, dx, dy, present);
-        const Pack inverse = one / (length2 * area2);
-        press(before_dx, before_dy, dx, dy, present, rest_area2 * (inverse * length2));
-        pull(other, dx, dy, length2, inverse * area2, slot);
-      } else {
-        pull(other, dx, dy, length2, one / length2, slot);
+    const auto sum_ring = [&](auto odd, Pack own) {
+      {
+        const Pack length2 = max(fma(first_dx, first_dx, first_dy * first_dy), tiny);
+        pull(first, first_dx, first_dy, length2, one / length2, first_slot, odd, own);
       }
-      before_dx = dx;
-      before_dy = dy;
-      last_vx = other.vx;
-      last_vy = other.vy;
+      for (int slot = first_slot + Pack::width; slot < end_slot; slot += Pack::width) {
+        const NodePack<T> other = state.neighbour(slot);
+        const Pack dx = other.x - self.x, dy = other.y - self.y;
+        const Pack length2 = max(fma(dx, dx, dy * dy), tiny);
+        if constexpr (terms.pressure) {
+          // One division serves both 1/l^2 and S0/S.
+          const Pack rest_area2 = Pack::load(body.rest_area2 + slot);
+          const auto present = rest_area2 > zero;
+          const Pack area2 = cross(before_dx, before_dy, dx, dy, present);
+          const Pack inverse = one / (length2 * area2);
+          press(before_dx, before_dy, dx, dy, present, rest_area2 * (inverse * length2));
+          pull(other, dx, dy, length2, inverse * area2, slot, odd, own);
+        } else {
+          pull(other, dx, dy, length2, one / length2, slot, odd, own);
+        }
+        before_dx = dx;
+        before_dy = dy;
+        last_vx = other.vx;
+        last_vy = other.vy;
+      }
+    };
+    if (terms.actuation == Actuation::mixed_periods && body.odd[g] != 0) {
+      // Rare oscillators of other periods: what they add is exactly 0 in all other lanes.
+      sum_ring(std::true_type(), amplitude * Pack::load(body.node_odd + node_base) *
+                                     oscillation(body.node_oscillator, node_base, n));
+    } else {
+      sum_ring(std::false_type(), zero);
     }
     if constexpr (terms.pressure) {
       if (body.ring_closed[g] != 0) {

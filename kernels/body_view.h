@@ -38,6 +38,7 @@ struct BodyView {
   const int* ring_begin = nullptr;   ///< first slot of the group
   const int* ring_size = nullptr;    ///< its slots
   const int* ring_closed = nullptr;  ///< 1 if a lane of the group has a closed ring
+  const int* odd = nullptr;          ///< 1 if an oscillator of another period is in its rings
   // [groups * width]
   const T* closing_area2 = nullptr;  ///< 2 S0 of the triangle that closes a ring, d^2; 0: none
   // [slots * width]
@@ -45,18 +46,19 @@ struct BodyView {
   const T* rest_length = nullptr;            ///< L0, d
   const T* spring = nullptr;                 ///< 1 if the slot holds a spring, else 0
   const T* rest_area2 = nullptr;  ///< 2 S0 of the triangle to the slot before, d^2; 0: no pressure
-  // The oscillators of a body come in one of two forms; the other's arrays are not to be read.
-  // Each of its own period: the neighbour's.
+  // The oscillators of a body's main period: both of a spring are one, a sin + b cos of 2 pi t/T.
+  const T* swing_sine = nullptr;    ///< L0 (cos phi_i + cos phi_j) of those that have it, d
+  const T* swing_cosine = nullptr;  ///< L0 (sin phi_i + sin phi_j)
+  // Oscillators of other periods.
+  const T* ring_odd = nullptr;  ///< 1 if the neighbour's is such a one, else 0
   OscillatorView<T> ring_oscillator{};
-  // All of one period: the spring's two oscillators are one, a sin(2 pi t/T) + b cos(2 pi t/T).
-  const T* swing_sine = nullptr;    ///< L0 (cos phi_i + cos phi_j), d
-  const T* swing_cosine = nullptr;  ///< L0 (sin phi_i + sin phi_j), d
   // [groups * width]
+  const T* node_odd = nullptr;  ///< 1 if the node's own is such a one, else 0
   OscillatorView<T> node_oscillator{};
   const T* inverse_mass = nullptr;  ///< 1; 0 in an idle lane
 
-  bool one_period = false;           ///< all oscillators have the same
-  std::uint64_t period_advance = 0;  ///< then of one step: 2^64 is one turn
+  bool mixed_periods = false;  ///< there is any such
+  std::uint64_t advance = 0;   ///< of the main period in one step: 2^64 is one turn
 
   // Outline edges of the nodes of the first groups. A ring that is one open fan has them at its
   // ends; those inside a ring of several fans follow, one slot per edge of a node.
