@@ -1,16 +1,26 @@
-#!/bin/sh
-# Measures everything in bench/ACCURACY.md and draws its charts.
-# usage: bench/accuracy.sh [BUILD [RANDOM]]   (default: build/release, 36 bodies of random genomes)
-set -eu
-root=$(cd "$(dirname "$0")/.." && pwd)
-build=${1:-$root/build/release}
-random=${2:-36}
-tables=$build/bench/accuracy/tables
-mkdir -p "$tables"
+#!/usr/bin/env bash
+# Installs what is missing, builds, measures everything in bench/ACCURACY.md and draws its charts
+# (about a quarter of an hour on two idle cores):
+#   bash bench/accuracy.sh            writes bench/charts/; tables (CSV) stay under build/
+#   bash bench/accuracy.sh --quick    8 bodies of random genomes instead of 36; charts under build/
+. "$(dirname "${BASH_SOURCE[0]}")/../evolve/setup.sh"
+. bench/needs.sh
+
+folder=build/release/bench/accuracy
+tables=$folder/tables charts=bench/charts random=36
+case "${1:-}" in
+  '') ;;
+  --quick) charts=$folder/charts random=8 ;;
+  *) fail "usage: bash bench/accuracy.sh [--quick]" ;;
+esac
+prepare_bench metamorph_accuracy
+
+mkdir -p "$tables" "$charts"
 for study in predictability ablation settling stability work-precision-water \
   work-precision-land-third work-precision-land work-precision-slope; do
-  echo "$study" >&2
-  "$build/bench/accuracy/metamorph_accuracy" "$study" "$random" \
-    "$root"/bench/genomes/*.json "$root"/bench/accuracy/genomes/*.json > "$tables/$study.csv"
+  start=$SECONDS
+  "$folder/metamorph_accuracy" "$study" "$random" bench/genomes/*.json \
+    bench/accuracy/genomes/*.json >"$tables/$study.csv" || exit 1
+  say "$study took $(took $((SECONDS - start)))"
 done
-"${PYTHON:-python3}" "$root/bench/plot_accuracy.py" "$tables" "$root/bench/charts"
+"$(plotting_python)" bench/plot_accuracy.py "$tables" "$charts"

@@ -23,8 +23,9 @@ std::vector<core::Body> grown_bodies(int stage);
 core::Scene plain(core::Scene scene);
 
 /// Floating-point operations of one step of a body in water as the library's kernel does them (a
-/// fused multiply-add counts two, a root or a division one), idle lanes not counted: 54 per slot of
-/// a ring, 34 per edge seen from a node, 33 per node.
+/// fused multiply-add counts two, a root or a division one; minima, maxima and idle lanes are not
+/// counted), all oscillators of one period: 27 per spring and end, 15 per triangle and corner, 29
+/// per outline edge and end, 19 per node.
 double water_step_flop(const core::Body& body);
 
 }  // namespace metamorph::bench

@@ -5,11 +5,8 @@
 # Leave the machine alone meanwhile: times are the least of all repetitions, but threads cannot be
 # timed beside other work.
 . "$(dirname "${BASH_SOURCE[0]}")/../evolve/setup.sh"
+. bench/needs.sh
 
-needs_of_bench='
-libbenchmark-dev     header:benchmark/benchmark.h
-python3              program:python3
-python3-matplotlib   program:python3'
 folder=build/release/bench
 results=bench/results charts=bench/charts page=bench/SPEED.md
 options=(--benchmark_repetitions=5 --benchmark_min_time=0.1)
@@ -24,12 +21,8 @@ case "${1:-}" in
   *) fail "usage: bash bench/run.sh [--quick]" ;;
 esac
 
-need "$needs_of_program$needs_of_bench" || fail 'Cannot measure without these.'
 programs=(step alternatives development generation scaling)
-tests=()
-[ -f build/release/CMakeCache.txt ] || tests=(-DMETAMORPH_TESTS=OFF)
-configure release -DMETAMORPH_BENCH=ON "${tests[@]}" && build release "${programs[@]/#/bench_}" ||
-  fail 'The build failed.'
+prepare_bench "${programs[@]/#/bench_}"
 
 raw=$folder/raw
 rm -rf "$raw"
@@ -43,7 +36,5 @@ for program in "${programs[@]}"; do
     >"$raw/bench_$program.txt" 2>&1 || { tail -n 5 "$raw/bench_$program.txt"; exit 1; }
   say "bench_$program took $(took $((SECONDS - start)))"
 done
-# Debian's packages belong to its own Python, which need not be the first.
-python=python3
-"$python" -c 'import matplotlib' 2>/dev/null || python=/usr/bin/python3
+python=$(plotting_python)
 "$python" bench/report.py "$raw" "$results" $page && "$python" bench/plot_speed.py "$results" "$charts"
