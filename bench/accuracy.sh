@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, measures everything in bench/ACCURACY.md and draws its charts
-# (about a quarter of an hour on two idle cores):
+# (about four minutes on two idle cores):
 #   bash bench/accuracy.sh            writes bench/charts/; tables (CSV) stay under build/
 #   bash bench/accuracy.sh --quick    8 bodies of random genomes instead of 36; charts under build/
 . "$(dirname "${BASH_SOURCE[0]}")/../evolve/setup.sh"
