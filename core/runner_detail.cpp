@@ -64,9 +64,10 @@ void Runner<T>::step(std::uint64_t n) {
   kernels::Terms terms = terms_of(*scene_, actuation_);
   if (scene_->self_collision) {
     const auto fx = batch_.extra_fx(index_), fy = batch_.extra_fy(index_);
-    if (touched_) {
-      std::fill(fx.begin(), fx.end(), T(0));
-      std::fill(fy.begin(), fy.end(), T(0));
+    if (touched_) {  // outline nodes, which fill the first groups
+      const auto lanes = static_cast<std::ptrdiff_t>(kernels::lane_index<T>(view_.outline_groups));
+      std::fill(fx.begin(), fx.begin() + lanes, T(0));
+      std::fill(fy.begin(), fy.begin() + lanes, T(0));
     }
     touched_ = kernels::add_collision_forces(collisions_.pairs(view_.now, view_.inverse_mass),
                                              view_.now, static_cast<T>(scene_->collision_stiffness),
