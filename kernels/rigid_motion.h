@@ -7,17 +7,6 @@
 
 namespace metamorph::kernels {
 
-/// The sum of the lanes, by halves.
-template <class T>
-inline T sum_by_halves(Lanes<T> pack) {
-  alignas(register_bytes) T value[Lanes<T>::width];
-  pack.store(value);
-  for (int half = Lanes<T>::width / 2; half > 0; half /= 2) {
-    for (int l = 0; l < half; ++l) value[l] += value[l + half];
-  }
-  return value[0];
-}
-
 /// A rigid motion that carries points near to where they are now: turn about the first centre, then
 /// move it to the second.
 template <class T>
