@@ -202,6 +202,11 @@ void TriangulationRepair::refresh_all() {
 /// Finds the edges that, at the targets, may be illegal or beside a face that is folded.
 void TriangulationRepair::find_suspects() {
   suspects_.resize(square_.size());
+  // The last pack's idle lanes may still name points that are gone.
+  constexpr auto width = static_cast<std::size_t>(kernels::Lanes<double>::width);
+  for (auto e = static_cast<std::size_t>(mesh_.edge_count()); e % width != 0; ++e) {
+    for (auto& corner : corners_) corner[e] = 2 * nowhere;
+  }
   const kernels::QuadrilateralView view = {corners_[0].data(), corners_[1].data(),
                                            corners_[2].data(), corners_[3].data()};
   const int found = kernels::certify_edges(&target_[stand_ins].x, view, mesh_.edge_count(),
