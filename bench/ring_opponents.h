@@ -141,7 +141,7 @@ class RingOpponent {
   RingOpponent(const core::Body& body, const core::Scene& scene)
       : task_{&body, &scene},
         batch_({&task_, 1}, true, 1),
-        view_(batch_.view(0)),
+        view_(batch_.view(0, buffers_)),
         state_(view_),
         coefficients_(core::coefficients_of<T>(scene, core::Method::drift_kick_drift)) {}
 
@@ -167,6 +167,7 @@ class RingOpponent {
 
   core::LocomotionTask task_;
   core::BodyBatch<T> batch_;
+  core::BodyState<T> buffers_;
   kernels::BodyView<T> view_;
   State<T> state_;
   kernels::StepCoefficients<T> coefficients_;

@@ -148,12 +148,7 @@ BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, in
   inverse_mass_.assign(lanes, T(0));
   node_start_.resize(lanes);
   node_per_step_.resize(lanes);
-  records_a_.resize(lanes);
-  records_b_.resize(lanes);
-  vx_.assign(lanes, T(0));
-  vy_.assign(lanes, T(0));
-  extra_fx_.assign(lanes, T(0));
-  extra_fy_.assign(lanes, T(0));
+  start_.assign(lanes, {});
   node_of_lane_.assign(lanes, -1);
   outline_edges_.resize(total.outline_edges);
 
@@ -207,8 +202,8 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
         node_odd_[here] = T(plan.odd[node]);
         node_start_[here] = start[node];
         node_per_step_[here] = per_step[node];
-        records_a_[here] = {static_cast<T>(body.x[node]), static_cast<T>(body.y[node] - lowest),
-                            T(0), T(0)};
+        start_[here] = {static_cast<T>(body.x[node]), static_cast<T>(body.y[node] - lowest), T(0),
+                        T(0)};
       }
       const int size = real ? plan.rings.size(plan.order[lane]) : 0;
       if (real && plan.rings.closing[node] >= 0) {
@@ -274,7 +269,7 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
 }
 
 template <class T>
-kernels::BodyView<T> BodyBatch<T>::view(std::size_t i) {
+kernels::BodyView<T> BodyBatch<T>::view(std::size_t i, BodyState<T>& state) const {
   const Extent& extent = extent_[i];
   const Offset& offset = offset_[i];
   const std::size_t lanes = offset.groups * width, slots = offset.slots * width;
@@ -307,12 +302,19 @@ kernels::BodyView<T> BodyBatch<T>::view(std::size_t i) {
   view.edge_to_last = edge_to_last_.data() + offset.edge_groups * width;
   view.edge_other = edge_other_.data() + offset.edge_slots * width;
   view.edge_present = edge_present_.data() + offset.edge_slots * width;
-  view.now = records_a_.data() + lanes;
-  view.next = records_b_.data() + lanes;
-  view.vx = vx_.data() + lanes;
-  view.vy = vy_.data() + lanes;
-  view.extra_fx = extra_fx_.data() + lanes;
-  view.extra_fy = extra_fy_.data() + lanes;
+  const std::size_t own = at(extent.groups) * width;
+  const auto start = start_.begin() + static_cast<std::ptrdiff_t>(lanes);
+  state.now.assign(start, start + static_cast<std::ptrdiff_t>(own));
+  state.next.assign(own, {});
+  for (auto* values : {&state.vx, &state.vy, &state.extra_fx, &state.extra_fy}) {
+    values->assign(own, T(0));
+  }
+  view.now = state.now.data();
+  view.next = state.next.data();
+  view.vx = state.vx.data();
+  view.vy = state.vy.data();
+  view.extra_fx = state.extra_fx.data();
+  view.extra_fy = state.extra_fy.data();
   return view;
 }
 
@@ -329,16 +331,6 @@ std::span<const Index> BodyBatch<T>::outline_nodes(std::size_t i) const {
 template <class T>
 std::span<const std::array<std::uint32_t, 2>> BodyBatch<T>::outline_edges(std::size_t i) const {
   return {outline_edges_.data() + offset_[i].outline_edges, at(extent_[i].outline_edges)};
-}
-
-template <class T>
-std::span<T> BodyBatch<T>::extra_fx(std::size_t i) {
-  return {extra_fx_.data() + offset_[i].groups * width, at(extent_[i].groups) * width};
-}
-
-template <class T>
-std::span<T> BodyBatch<T>::extra_fy(std::size_t i) {
-  return {extra_fy_.data() + offset_[i].groups * width, at(extent_[i].groups) * width};
 }
 
 template class BodyBatch<float>;

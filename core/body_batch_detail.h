@@ -13,9 +13,17 @@
 
 namespace metamorph::core {
 
+/// The state of one running animat, see BodyView. Each thread has its own: lines of the cache that
+/// one writes in every step are nobody else's, nor next to another's.
+template <class T>
+struct BodyState {
+  Aligned<kernels::NodeRecord<T>> now, next;
+  Aligned<T> vx, vy, extra_fx, extra_fy;
+};
+
 /// The bodies of many tasks as structure-of-arrays, ready for the kernels: every array holds all
-/// bodies one behind the other, each padded to whole lane groups. Constants of the bodies and their
-/// state; what belongs to the animat's run in time is in its runner.
+/// bodies one behind the other, each padded to whole lane groups. Constants of the bodies and where
+/// they start; what changes in time is in its runner.
 template <class T>
 class BodyBatch {
  public:
@@ -25,8 +33,8 @@ class BodyBatch {
   /// `midpoint`: forces are taken half a step later than the step's start (drift-kick-drift).
   BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, int threads);
 
-  /// The kernels' view of body `i`, at rest in its starting position.
-  kernels::BodyView<T> view(std::size_t i);
+  /// The kernels' view of body `i`, with the state in `state`: at rest in its starting position.
+  kernels::BodyView<T> view(std::size_t i, BodyState<T>& state) const;
 
   /// lane -> node of the Body, for body `i`; -1 in idle lanes.
   std::span<const Index> node_of_lane(std::size_t i) const;
@@ -35,9 +43,6 @@ class BodyBatch {
   /// body `i`.
   std::span<const Index> outline_nodes(std::size_t i) const;
   std::span<const std::array<std::uint32_t, 2>> outline_edges(std::size_t i) const;
-
-  std::span<T> extra_fx(std::size_t i);
-  std::span<T> extra_fy(std::size_t i);
 
  private:
   struct Extent {
@@ -61,8 +66,7 @@ class BodyBatch {
       edge_to_last_, edge_present_;
   Aligned<kernels::Turn<T>> ring_start_, ring_per_step_, node_start_, node_per_step_;
   Aligned<T> swing_sine_, swing_cosine_, ring_odd_, node_odd_;
-  Aligned<kernels::NodeRecord<T>> records_a_, records_b_;
-  Aligned<T> vx_, vy_, extra_fx_, extra_fy_;
+  Aligned<kernels::NodeRecord<T>> start_;
   std::vector<Index> node_of_lane_;
   std::vector<std::array<std::uint32_t, 2>> outline_edges_;
 };

@@ -87,7 +87,10 @@ std::vector<Outcome> run_all(std::span<const LocomotionTask> given,
 #pragma omp for schedule(dynamic)
     for (std::int64_t i = 0; i < runs; ++i) {
       const auto index = static_cast<std::size_t>(i);
-      runner.run(index, packed[index], outcomes[sound[index]], every, observe);
+      // A copy, for it is written in every step: its neighbours are other threads'.
+      Outcome outcome = outcomes[sound[index]];
+      runner.run(index, packed[index], outcome, every, observe);
+      outcomes[sound[index]] = outcome;
     }
   }
   return outcomes;

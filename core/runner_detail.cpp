@@ -47,7 +47,7 @@ void Runner<T>::run(std::size_t i, const LocomotionTask& task, Outcome& outcome,
   body_ = task.body;
   scene_ = task.scene;
   index_ = i;
-  view_ = batch_.view(i);
+  view_ = batch_.view(i, state_);
   coefficients_ = coefficients_of<T>(*scene_, method_);
   step_ = scene_->step;
   extremes_ = {};
@@ -63,7 +63,7 @@ template <class T>
 void Runner<T>::step(std::uint64_t n) {
   kernels::Terms terms = terms_of(*scene_, actuation_);
   if (scene_->self_collision) {
-    const auto fx = batch_.extra_fx(index_), fy = batch_.extra_fy(index_);
+    auto &fx = state_.extra_fx, &fy = state_.extra_fy;
     if (touched_) {  // outline nodes, which fill the first groups
       const auto lanes = static_cast<std::ptrdiff_t>(kernels::lane_index<T>(view_.outline_groups));
       std::fill(fx.begin(), fx.begin() + lanes, T(0));

@@ -14,7 +14,7 @@ namespace metamorph::core {
 template <class T>
 class Runner {
  public:
-  Runner(BodyBatch<T>& batch, Method method) : batch_(batch), method_(method) {}
+  Runner(const BodyBatch<T>& batch, Method method) : batch_(batch), method_(method) {}
 
   /// Runs body `i` of the batch and fills `outcome`. `observe` (may be empty) is called at the
   /// start of actuation and after every `every` steps.
@@ -38,13 +38,14 @@ class Runner {
   Mean mean_position() const;
   void show(const std::function<void(const Frame&)>& observe, std::int64_t step_index);
 
-  BodyBatch<T>& batch_;
+  const BodyBatch<T>& batch_;
   Method method_;
 
   // The animat being run.
   const Body* body_ = nullptr;
   const Scene* scene_ = nullptr;
   std::size_t index_ = 0;
+  BodyState<T> state_;
   kernels::BodyView<T> view_{};
   kernels::StepCoefficients<T> coefficients_{};
   kernels::StepExtremes<T> extremes_{};

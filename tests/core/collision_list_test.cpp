@@ -27,7 +27,7 @@ class Watched {
  public:
   explicit Watched(Body body)
       : body_(std::move(body)), task_{&body_, &scene_}, batch_({&task_, 1}, false, 1) {
-    view_ = batch_.view(0);
+    view_ = batch_.view(0, state_);
     const auto nodes = batch_.outline_nodes(0);
     for (std::uint32_t n = 0; n < nodes.size(); ++n) nodes_.push_back(static_cast<int>(n));
     for (const auto& [a, b] : batch_.outline_edges(0)) {
@@ -136,6 +136,7 @@ class Watched {
   Body body_;
   LocomotionTask task_;
   BodyBatch<T> batch_;
+  BodyState<T> state_;
   kernels::BodyView<T> view_{};
   CollisionList<T> list_;
   std::vector<int> nodes_;
