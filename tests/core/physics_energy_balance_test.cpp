@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ostream>
-#include <string>
 #include <vector>
 
 #include "core/reference_system_detail.h"
@@ -13,6 +11,7 @@
 #include "kernels/reference/spring.h"
 #include "tests/bodies.h"
 #include "tests/physics.h"
+#include "tests/reference_methods.h"
 #include "tests/tolerance.h"
 
 // What a body gains in energy is the work of its muscles less what dampers, water, ground and
@@ -23,14 +22,6 @@ namespace {
 
 using core::ReferenceMethod;
 using core::ReferenceSystem;
-
-struct Case {
-  std::string name;
-  ReferenceMethod method;
-  int order;
-};
-
-std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
 
 /// What the forces that are not conservative do: power at one moment.
 double power(ReferenceSystem& system, const core::Body& body, const core::Scene& scene, double t) {
@@ -87,16 +78,10 @@ double unexplained_energy(ReferenceMethod method, double h, core::Scene scene, d
   return largest / turnover;
 }
 
-class EnergyBalance : public testing::TestWithParam<Case> {};
+class EnergyBalance : public testing::TestWithParam<MethodOfOrder> {};
 
-INSTANTIATE_TEST_SUITE_P(
-    Reference, EnergyBalance,
-    testing::Values(Case{"SymplecticEuler", ReferenceMethod::symplectic_euler, 1},
-                    Case{"DriftKickDrift", ReferenceMethod::drift_kick_drift, 2},
-                    Case{"VelocityVerlet", ReferenceMethod::velocity_verlet, 2},
-                    Case{"Midpoint", ReferenceMethod::midpoint, 2},
-                    Case{"RungeKutta4", ReferenceMethod::runge_kutta_4, 4}),
-    testing::PrintToStringParamName());
+INSTANTIATE_TEST_SUITE_P(Reference, EnergyBalance, testing::ValuesIn(reference_methods),
+                         testing::PrintToStringParamName());
 
 TEST_P(EnergyBalance, InWaterClosesWithTheMethodsOrder) {
   std::vector<double> left;

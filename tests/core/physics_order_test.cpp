@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ostream>
-#include <string>
 #include <vector>
 
 #include "core/reference_system_detail.h"
 #include "core/scene.h"
 #include "tests/bodies.h"
 #include "tests/physics.h"
+#include "tests/reference_methods.h"
 #include "tests/tolerance.h"
 
 namespace metamorph::tests {
@@ -17,14 +16,6 @@ namespace {
 
 using core::ReferenceMethod;
 using core::ReferenceSystem;
-
-struct Case {
-  std::string name;
-  ReferenceMethod method;
-  int order;
-};
-
-std::ostream& operator<<(std::ostream& out, const Case& c) { return out << c.name; }
 
 struct Places {
   std::vector<double> x, y;
@@ -40,16 +31,10 @@ Places swim(ReferenceMethod method, double h, double duration) {
   return {system.x, system.y};
 }
 
-class Order : public testing::TestWithParam<Case> {};
+class Order : public testing::TestWithParam<MethodOfOrder> {};
 
-INSTANTIATE_TEST_SUITE_P(
-    Reference, Order,
-    testing::Values(Case{"SymplecticEuler", ReferenceMethod::symplectic_euler, 1},
-                    Case{"DriftKickDrift", ReferenceMethod::drift_kick_drift, 2},
-                    Case{"VelocityVerlet", ReferenceMethod::velocity_verlet, 2},
-                    Case{"Midpoint", ReferenceMethod::midpoint, 2},
-                    Case{"RungeKutta4", ReferenceMethod::runge_kutta_4, 4}),
-    testing::PrintToStringParamName());
+INSTANTIATE_TEST_SUITE_P(Reference, Order, testing::ValuesIn(reference_methods),
+                         testing::PrintToStringParamName());
 
 TEST_P(Order, InWaterByHalving) {
   // Errors against RK4 at 0.00625, whose own error is far below the smallest compared. The ramp
