@@ -141,8 +141,7 @@ BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, in
   swing_cosine_.assign(slots, T(0));
   ring_odd_.assign(slots, T(0));
   node_odd_.assign(lanes, T(0));
-  edge_to_first_.assign(total.edge_groups * width, T(0));
-  edge_to_last_.assign(total.edge_groups * width, T(0));
+  on_outline_.assign(total.edge_groups * width, T(0));
   edge_other_.resize(total.edge_slots * width);
   edge_present_.assign(total.edge_slots * width, T(0));
   inverse_mass_.assign(lanes, T(0));
@@ -243,10 +242,7 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
     for (int l = 0; l < width; ++l) {
       const auto lane = static_cast<std::uint32_t>(g * width + l);
       const Index node = lane < nodes ? plan.order[lane] : -1;
-      if (node >= 0 && plan.rings.edges(node) > 0) {
-        edge_to_first_[group * width + at(l)] = T(1);
-        edge_to_last_[group * width + at(l)] = T(1);
-      }
+      if (node >= 0 && plan.rings.edges(node) > 0) on_outline_[group * width + at(l)] = T(1);
       const int size = node >= 0 ? plan.rings.inner_edges(node) : 0;
       for (int e = 0; e < edge_size_[group]; ++e) {
         const std::size_t place = (offset.edge_slots + at(edge_slot + e)) * width + at(l);
@@ -298,8 +294,7 @@ kernels::BodyView<T> BodyBatch<T>::view(std::size_t i, BodyState<T>& state) cons
   view.inverse_mass = inverse_mass_.data() + lanes;
   view.edge_begin = edge_begin_.data() + offset.edge_groups;
   view.edge_size = edge_size_.data() + offset.edge_groups;
-  view.edge_to_first = edge_to_first_.data() + offset.edge_groups * width;
-  view.edge_to_last = edge_to_last_.data() + offset.edge_groups * width;
+  view.on_outline = on_outline_.data() + offset.edge_groups * width;
   view.edge_other = edge_other_.data() + offset.edge_slots * width;
   view.edge_present = edge_present_.data() + offset.edge_slots * width;
   const std::size_t own = at(extent.groups) * width;

@@ -62,8 +62,8 @@ class BodyBatch {
   // [groups of all bodies], [slots], ... each entry `width` wide where lanes are concerned.
   std::vector<int> ring_begin_, ring_size_, ring_closed_, odd_, edge_begin_, edge_size_;
   Aligned<std::uint32_t> neighbour_, edge_other_;
-  Aligned<T> rest_length_, spring_, rest_area2_, closing_area2_, inverse_mass_, edge_to_first_,
-      edge_to_last_, edge_present_;
+  Aligned<T> rest_length_, spring_, rest_area2_, closing_area2_, inverse_mass_, on_outline_,
+      edge_present_;
   Aligned<kernels::Turn<T>> ring_start_, ring_per_step_, node_start_, node_per_step_;
   Aligned<T> swing_sine_, swing_cosine_, ring_odd_, node_odd_;
   Aligned<kernels::NodeRecord<T>> start_;

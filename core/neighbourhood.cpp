@@ -67,19 +67,17 @@ void Neighbourhood::fill(std::span<const double> x, std::span<const double> y, d
   const bool short_ones_suffice =
       selection_.select(x, y, link_limit, triangulation_.edges(), links_);
   table_.reset(static_cast<Index>(x.size()));
-  for (const auto& [i, j] : links_) table_.link(i, j);
   const GhostMesh& mesh = triangulation_.mesh();
   patchable_ = short_ones_suffice && !mesh.empty();
-  if (!patchable_) return;
+  if (!patchable_) {
+    for (const auto& [i, j] : links_) table_.link(i, j);
+    return;
+  }
+  // The chosen ones are the short edges of the mesh.
   make_room(mesh.edge_count());
   std::fill(unlinked_.begin(), unlinked_.end(), 1.0);
   for (int edge = 0; edge < mesh.edge_count(); ++edge) {
-    const auto e = static_cast<std::size_t>(edge);
-    const auto ends = mesh.around(mesh.side_of(edge));
-    if (ends.a == GhostMesh::ghost || ends.b == GhostMesh::ghost) continue;
-    if (triangulation_.squared_length(ends.a, ends.b) > link_limit * link_limit) continue;
-    ends_[e] = {ends.a, ends.b};
-    unlinked_[e] = 0;
+    link_if_short(edge, link_limit * link_limit);
   }
 }
 

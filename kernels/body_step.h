@@ -197,8 +197,9 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
           add_edge_drag<T>(dx, dy, half * (self.vx + other_vx), half * (self.vy + other_vy), drag,
                            present, fx, fy);
         };
-        resist(first_dx, first_dy, first.vx, first.vy, Pack::load(body.edge_to_first + node_base));
-        resist(before_dx, before_dy, last_vx, last_vy, Pack::load(body.edge_to_last + node_base));
+        const Pack on_outline = Pack::load(body.on_outline + node_base);
+        resist(first_dx, first_dy, first.vx, first.vy, on_outline);
+        resist(before_dx, before_dy, last_vx, last_vy, on_outline);
         for (int e = 0; e < body.edge_size[g]; ++e) {
           const int base = lane_index<T>(body.edge_begin[g] + e);
           const NodePack<T> other = state.edge_end(base);

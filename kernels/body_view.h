@@ -13,9 +13,9 @@
 /// slot each, so that it sums its own springs and triangle corners and nothing is ever scattered.
 /// Each spring is thus computed twice and each triangle three times, which is still faster than
 /// gathers and scatters over a spring list (measured: see bench/). A slot holds the spring to its
-/// neighbour and the triangle between it and the slot before; in a closed ring the first slot's
-/// triangle leads to the last neighbour (`before`). A pinch node holds one fan after the other,
-/// with no triangle in the slot where the next fan begins.
+/// neighbour and the triangle between it and the slot before; the triangle between the last slot
+/// of a closed ring and the first stands apart (`closing_area2`). A pinch node holds one fan after
+/// the other, with no triangle in the slot where the next fan begins.
 namespace metamorph::kernels {
 
 template <class T>
@@ -63,9 +63,7 @@ struct BodyView {
   // Outline edges of the nodes of the first groups. A ring that is one open fan has them at its
   // ends; those inside a ring of several fans follow, one slot per edge of a node.
   // [outline_groups * width]
-  const T* edge_to_first =
-      nullptr;                      ///< 1 if there is an edge to the ring's first neighbour, else 0
-  const T* edge_to_last = nullptr;  ///< and to its last
+  const T* on_outline = nullptr;  ///< 1: edges lead to the ring's first and last neighbour; else 0
   const int* edge_begin = nullptr;  ///< [outline_groups] first edge slot
   const int* edge_size = nullptr;   ///< [outline_groups]
   const std::uint32_t* edge_other =

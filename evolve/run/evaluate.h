@@ -88,7 +88,6 @@ class Evaluator {
     std::vector<std::optional<Task>> tasks;  ///< [trials] that gave its outcomes, where bodies ran
   };
 
-  std::vector<core::Network> compile_all(std::span<const Genome> genomes) const;
   /// Evaluates networks that are all different, and the genomes that they were compiled from.
   std::vector<Known> evaluate_new(std::span<const core::Network> networks,
                                   std::span<const Genome* const> genomes,
