@@ -10,26 +10,30 @@ namespace metamorph::core {
 /// step, index and value that showed it (see Outcome), and distance 0; it disturbs nobody.
 enum class Status : std::uint8_t {
   ok,
-  not_settled,     ///< ran, but was still moving when settling timed out; its distance counts
-  empty,           ///< no cell alive at the stage end; normal, distance 0
-  no_body,         ///< fewer than 8 nodes after extraction; normal, distance 0
-  bad_input,       ///< a parameter is not finite or has the wrong sign
-  bad_geometry,    ///< coincident nodes, or a triangle without area or turned the wrong way
-  bad_topology,    ///< isolated node, or more than one edge-connected component
-  step_too_large,  ///< the step is beyond the method's stability limit for this body
-  inverted,        ///< a triangle turned inside out
-  collapsed,       ///< a triangle was squeezed below what the step resolves
-  speed,           ///< a node moved faster than the step resolves
-  non_finite,      ///< a state became infinite or not a number
+  not_settled,      ///< ran, but was still moving when settling timed out; its distance counts
+  empty,            ///< no cell alive at the stage end; normal, distance 0
+  no_body,          ///< fewer than 8 nodes after extraction; normal, distance 0
+  bad_input,        ///< a parameter is not finite or has the wrong sign
+  bad_geometry,     ///< coincident nodes, or a triangle without area or turned the wrong way
+  bad_topology,     ///< isolated node, or more than one edge-connected component
+  bad_development,  ///< development became infinite or not a number: there is no body
+  step_too_large,   ///< the step is beyond the method's stability limit for this body
+  inverted,         ///< a triangle turned inside out
+  crossed,          ///< the outline crossed itself
+  collapsed,        ///< a triangle was squeezed below what the step resolves
+  speed,            ///< a node moved faster than the step resolves
+  non_finite,       ///< a state became infinite or not a number
 };
 
-inline constexpr int status_count = 12;
+inline constexpr int status_count = 14;
 
 /// All codes in order, to count or to list them.
 inline constexpr std::array<Status, status_count> all_statuses = {
-    Status::ok,        Status::not_settled,  Status::empty,        Status::no_body,
-    Status::bad_input, Status::bad_geometry, Status::bad_topology, Status::step_too_large,
-    Status::inverted,  Status::collapsed,    Status::speed,        Status::non_finite};
+    Status::ok,           Status::not_settled,     Status::empty,
+    Status::no_body,      Status::bad_input,       Status::bad_geometry,
+    Status::bad_topology, Status::bad_development, Status::step_too_large,
+    Status::inverted,     Status::crossed,         Status::collapsed,
+    Status::speed,        Status::non_finite};
 
 /// The code's name as written in records and JSON ("ok", "not_settled", ...).
 std::string_view name(Status status);
