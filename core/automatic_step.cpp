@@ -13,10 +13,6 @@ constexpr double steps_per_period = 20;
 double chosen_step(const Body& body, const Scene& scene, Method method, bool settling) {
   const StepPhase phase = step_phase(scene, method, settling);
   double limit = safe_step_limit(body, scene, phase.damping, phase.method);
-  if (scene.ground) {
-    limit = std::min(limit,
-                     mode_step_limit(scene.ground_stiffness, scene.ground_damping, phase.method));
-  }
   if (scene.self_collision) {
     // Two nodes that push each other away.
     limit = std::min(limit, mode_step_limit(2 * scene.collision_stiffness, 0, phase.method));

@@ -88,7 +88,7 @@ struct BodyBatch<T>::Plan {
 
 template <class T>
 BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, int threads)
-    : extent_(tasks.size()), offset_(tasks.size() + 1), advance_(tasks.size()) {
+    : extent_(tasks.size()), offset_(tasks.size() + 1), advance_(tasks.size()), origin_(tasks.size()) {
   const auto count = static_cast<std::int64_t>(tasks.size());
   std::vector<Plan> plans;
   plans.reserve(tasks.size());
@@ -166,8 +166,11 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
   const Extent& extent = extent_[i];
   const Offset& offset = offset_[i];
   const auto nodes = static_cast<std::size_t>(extent.nodes);
-  const double lowest =
-      scene.ground && nodes > 0 ? *std::min_element(body.y.begin(), body.y.end()) : 0;
+  const auto [left, right] = std::minmax_element(body.x.begin(), body.x.end());
+  const auto [low, high] = std::minmax_element(body.y.begin(), body.y.end());
+  const double middle_x = (*left + *right) / 2;
+  const double level = scene.ground ? *low : (*low + *high) / 2;
+  origin_[i] = {middle_x, level};
   const double first_time = midpoint ? scene.step / 2 : 0;
 
   std::vector<kernels::Turn<T>> start(nodes), per_step(nodes);
@@ -201,8 +204,8 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
         node_odd_[here] = T(plan.odd[node]);
         node_start_[here] = start[node];
         node_per_step_[here] = per_step[node];
-        start_[here] = {static_cast<T>(body.x[node]), static_cast<T>(body.y[node] - lowest), T(0),
-                        T(0)};
+        start_[here] = {static_cast<T>(body.x[node] - middle_x),
+                        static_cast<T>(body.y[node] - level), T(0), T(0)};
       }
       const int size = real ? plan.rings.size(plan.order[lane]) : 0;
       if (real && plan.rings.closing[node] >= 0) {

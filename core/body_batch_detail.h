@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -36,6 +37,10 @@ class BodyBatch {
   /// The kernels' view of body `i`, with the state in `state`: at rest in its starting position.
   kernels::BodyView<T> view(std::size_t i, BodyState<T>& state) const;
 
+  /// What was taken from the positions of body `i`: it starts about x = 0, with its lowest node at
+  /// y = 0 on the ground, else about y = 0, so that rounding does not depend on where it lies.
+  std::array<double, 2> origin(std::size_t i) const { return origin_[i]; }
+
   /// lane -> node of the Body, for body `i`; -1 in idle lanes.
   std::span<const Index> node_of_lane(std::size_t i) const;
 
@@ -58,6 +63,7 @@ class BodyBatch {
   std::vector<Extent> extent_;
   std::vector<Offset> offset_;
   std::vector<std::uint64_t> advance_;  ///< of each body's main period in a step, see BodyView
+  std::vector<std::array<double, 2>> origin_;
 
   // [groups of all bodies], [slots], ... each entry `width` wide where lanes are concerned.
   std::vector<int> ring_begin_, ring_size_, ring_closed_, odd_, edge_begin_, edge_size_;

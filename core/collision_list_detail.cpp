@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "core/solid_pairs.h"
+
 namespace metamorph::core {
 
 namespace {
@@ -15,26 +17,30 @@ constexpr double room = 1.001;  ///< for rounding
 }  // namespace
 
 template <class T>
-void CollisionList<T>::reset(const Body& body, const Scene& scene, std::span<const Index> nodes,
-                             std::span<const std::array<std::uint32_t, 2>> edges) {
+void CollisionList<T>::reset(const Body& body, const Scene& scene, const BodyBatch<T>& batch,
+                             std::size_t i) {
+  const auto edges = batch.outline_edges(i);
   gap_ = static_cast<T>(scene.collision_gap);
-  nodes_ = nodes;
+  nodes_ = batch.outline_nodes(i);
   edges_ = edges.size();
-  const std::size_t groups = (nodes.size() + width - 1) / width;
-  // The blocks must hold all pairs that a list made of them needs.
-  block_watch_.reset(static_cast<int>(groups), static_cast<T>((wide_skin - narrow_skin) / 2));
-  pair_watch_.reset(static_cast<int>(groups), static_cast<T>(narrow_skin / 2));
+  const std::size_t outline_groups = (nodes_.size() + width - 1) / width;
+  block_watch_.reset(static_cast<int>(outline_groups));
+  pair_watch_.reset(static_cast<int>(outline_groups));
+  line_up(edges);
+  list_all_blocks(edges);
+  find_close_at_rest(body, edges);
+  find_lasting(body, scene, batch.node_of_lane(i));
+  groups_ = static_cast<int>(lasting_.empty() ? outline_groups
+                                              : batch.node_of_lane(i).size() / width);
   // No more pairs than these can come up, so that nothing is allocated while it runs.
-  const std::size_t most = nodes.size() * edges.size() + width;
+  const std::size_t most = nodes_.size() * edges.size() + lasting_.size() + width;
   if (pair_node_.size() < most) {
     pair_node_.resize(most);
     pair_first_.resize(most);
     pair_second_.resize(most);
     pair_threshold_.resize(most);
+    approaches_.resize(most);
   }
-  line_up(edges);
-  list_all_blocks(edges);
-  find_close_at_rest(body, edges);
 }
 
 /// Puts the nodes in the order of walks along the outline.
@@ -84,19 +90,9 @@ void CollisionList<T>::list_all_blocks(std::span<const Edge> edges) {
   wide_.resize(all_.size() + 1);
   narrow_.resize(all_.size() + 1);
 
-  std::vector<std::vector<std::size_t>> incident(nodes_.size());
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    incident[edges[e][0]].push_back(e);
-    incident[edges[e][1]].push_back(e);
     for (const std::size_t p : place_) block(e, p).lanes |= lane(p);
-  }
-  for (std::size_t n = 0; n < nodes_.size(); ++n) {
-    const std::size_t p = place_[n];
-    for (const std::size_t first : incident[n]) {
-      block(first, p).lanes &= ~lane(p);
-      const std::size_t other = edges[first][0] == n ? edges[first][1] : edges[first][0];
-      for (const std::size_t second : incident[other]) block(second, p).lanes &= ~lane(p);
-    }
+    for (const std::uint32_t end : edges[e]) block(e, place_[end]).lanes &= ~lane(place_[end]);
   }
 }
 
@@ -125,6 +121,20 @@ void CollisionList<T>::find_close_at_rest(const Body& body, std::span<const Edge
 }
 
 template <class T>
+void CollisionList<T>::find_lasting(const Body& body, const Scene& scene,
+                                    std::span<const Index> node_of_lane) {
+  lasting_.clear();
+  const auto offset = [&](Index node) {
+    const auto lane = std::find(node_of_lane.begin(), node_of_lane.end(), node);
+    return kernels::record_offset<T>(static_cast<std::uint32_t>(lane - node_of_lane.begin()));
+  };
+  for (const SolidPair& pair : corners_without_pressure(body, scene)) {
+    lasting_.push_back({offset(pair.node), offset(pair.edge[0]), offset(pair.edge[1]),
+                        static_cast<T>(pair.threshold)});
+  }
+}
+
+template <class T>
 T CollisionList<T>::threshold(std::size_t edge, std::size_t place) const {
   for (const CloseAtRest& pair : close_at_rest_) {
     if (pair.edge == edge && pair.place == place) return pair.threshold;
@@ -146,16 +156,18 @@ void CollisionList<T>::measure(const kernels::NodeRecord<T>* records, T reach) {
 
 template <class T>
 void CollisionList<T>::renew_blocks(const kernels::NodeRecord<T>* records) {
-  block_watch_.mark(records);
+  // The blocks must hold all pairs that a list made of them needs.
+  block_watch_.mark(records, static_cast<T>((wide_skin - narrow_skin) / 2));
   measure(records, gap_ + static_cast<T>(wide_skin * room));
   wide_end_ = kernels::copy_circled(all_.data(), all_.data() + all_.size(), circles_.data(),
                                     x_.data(), y_.data(), wide_.data());
 }
 
+/// So that the list holds until something has moved by `limit`.
 template <class T>
-void CollisionList<T>::renew_pairs(const kernels::NodeRecord<T>* records) {
-  pair_watch_.mark(records);
-  const T reach = gap_ + static_cast<T>(narrow_skin * room);
+void CollisionList<T>::renew_pairs(const kernels::NodeRecord<T>* records, T limit) {
+  pair_watch_.mark(records, limit);
+  const T reach = gap_ + 2 * limit * static_cast<T>(room);
   measure(records, reach);
   kernels::CollisionBlock* const begin = narrow_.data();
   kernels::CollisionBlock* end =
@@ -169,26 +181,35 @@ void CollisionList<T>::renew_pairs(const kernels::NodeRecord<T>* records) {
       add(node_[p], first_[found->edge], second_[found->edge], threshold(found->edge, p));
     }
   }
-  while (count_ % width != 0) add(0, 0, 0, T(0));
+  for (const LastingPair& pair : lasting_) append(pair.node, pair.first, pair.second, pair.threshold);
+  while (count_ % width != 0) append(0, 0, 0, T(0));
 }
 
-/// Pairs of an edge stay sorted by node.
+template <class T>
+void CollisionList<T>::append(std::uint32_t node, std::uint32_t first, std::uint32_t second,
+                              T threshold) {
+  pair_node_[count_] = node;
+  pair_first_[count_] = first;
+  pair_second_[count_] = second;
+  pair_threshold_[count_] = threshold;
+  ++count_;
+}
+
+/// Pairs of an edge stay sorted by node of the body.
 template <class T>
 void CollisionList<T>::add(std::uint32_t node, std::uint32_t first, std::uint32_t second,
                            T threshold) {
-  std::size_t i = count_++;
-  for (; i > 0 && pair_first_[i - 1] == first && pair_second_[i - 1] == second &&
-         pair_node_[i - 1] > node;
+  const auto number = [&](std::uint32_t offset) {
+    return nodes_[offset / kernels::record_offset<T>(1)];
+  };
+  append(node, first, second, threshold);
+  for (std::size_t i = count_ - 1; i > 0 && pair_first_[i - 1] == first &&
+                                   pair_second_[i - 1] == second &&
+                                   number(pair_node_[i - 1]) > number(node);
        --i) {
-    pair_node_[i] = pair_node_[i - 1];
-    pair_first_[i] = pair_first_[i - 1];
-    pair_second_[i] = pair_second_[i - 1];
-    pair_threshold_[i] = pair_threshold_[i - 1];
+    std::swap(pair_node_[i - 1], pair_node_[i]);
+    std::swap(pair_threshold_[i - 1], pair_threshold_[i]);
   }
-  pair_node_[i] = node;
-  pair_first_[i] = first;
-  pair_second_[i] = second;
-  pair_threshold_[i] = threshold;
 }
 
 template <class T>
@@ -196,10 +217,24 @@ kernels::CollisionPairs<T> CollisionList<T>::pairs(const kernels::NodeRecord<T>*
                                                    const T* weight) {
   if (!pair_watch_.holds(records, weight)) {
     if (!block_watch_.holds(records, weight)) renew_blocks(records);
-    renew_pairs(records);
+    renew_pairs(records, static_cast<T>(narrow_skin / 2));
   }
   return {static_cast<int>(count_), pair_node_.data(), pair_first_.data(), pair_second_.data(),
           pair_threshold_.data()};
+}
+
+template <class T>
+bool CollisionList<T>::held(const kernels::NodeRecord<T>* now, const kernels::NodeRecord<T>* next,
+                            const T* weight) {
+  if (pair_watch_.holds(next, weight)) return true;
+  // A step may be longer than half a skin: then the skin is the wider for once.
+  const T way = largest(way_) * static_cast<T>(room);
+  const T limit = std::max(way, static_cast<T>(narrow_skin / 2));
+  if (limit > static_cast<T>(narrow_skin / 2) || !block_watch_.holds(now, weight)) renew_blocks(now);
+  renew_pairs(now, limit);
+  block_watch_.advance(way_);
+  pair_watch_.advance(way_);
+  return false;
 }
 
 template class CollisionList<float>;

@@ -6,10 +6,9 @@
 namespace metamorph::core {
 
 template <class T>
-void MotionWatch<T>::reset(int groups, T limit) {
+void MotionWatch<T>::reset(int groups) {
   const auto size = static_cast<std::size_t>(groups * kernels::Lanes<T>::width);
   groups_ = groups;
-  limit_ = limit;
   marked_ = false;
   x_.resize(size);
   y_.resize(size);
@@ -17,13 +16,14 @@ void MotionWatch<T>::reset(int groups, T limit) {
 }
 
 template <class T>
-void MotionWatch<T>::mark(const kernels::NodeRecord<T>* records) {
+void MotionWatch<T>::mark(const kernels::NodeRecord<T>* records, T limit) {
   constexpr int width = kernels::Lanes<T>::width;
   for (int base = 0; base < groups_ * width; base += width) {
     const kernels::NodePack<T> node = kernels::load(records + base);
     node.x.store(x_.data() + base);
     node.y.store(y_.data() + base);
   }
+  limit_ = limit;
   marked_ = true;
   farthest_out_ = kernels::farthest_out(x_.data(), y_.data(), groups_);
   start_anew(limit_);

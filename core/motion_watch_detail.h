@@ -14,12 +14,11 @@ namespace metamorph::core {
 template <class T>
 class MotionWatch {
  public:
-  /// Watches the nodes of the first `groups` lane groups for moves of `limit` or more; forgets the
-  /// mark.
-  void reset(int groups, T limit);
+  /// Watches the nodes of the first `groups` lane groups; forgets the mark.
+  void reset(int groups);
 
-  /// Remembers where the nodes are.
-  void mark(const kernels::NodeRecord<T>* records);
+  /// Remembers where the nodes are, and the limit from now on.
+  void mark(const kernels::NodeRecord<T>* records, T limit);
 
   /// Says that every node has moved, by no more than what is in its lane of `way`.
   void advance(kernels::Lanes<T> way) { travelled_ += way + kernels::Lanes<T>(rounding_); }

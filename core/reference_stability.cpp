@@ -29,7 +29,7 @@ struct Linear {
     ReferenceSystem system(body, scene);
     const std::size_t nodes = body.x.size();
     const auto size = static_cast<Eigen::Index>(2 * nodes);
-    std::vector<double> fx(nodes), fy(nodes), normal(nodes);
+    std::vector<double> fx(nodes), fy(nodes);
     const auto slopes = [&](std::vector<double>& along_x, std::vector<double>& along_y) {
       constexpr double delta = 1e-5;
       MatrixXd matrix(size, size);
@@ -40,7 +40,7 @@ struct Linear {
         Eigen::VectorXd difference = Eigen::VectorXd::Zero(size);
         for (const double sign : {-1.0, 1.0}) {
           value = rest + sign * delta;
-          system.forces(system.nodes(), 0, {fx, fy}, normal);
+          system.forces(system.nodes(), 0, {fx, fy});
           for (Eigen::Index i = 0; i < size / 2; ++i) {
             difference[2 * i] += sign * fx[static_cast<std::size_t>(i)];
             difference[2 * i + 1] += sign * fy[static_cast<std::size_t>(i)];

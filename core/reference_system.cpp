@@ -3,27 +3,15 @@
 #include <numbers>
 
 #include "core/reference_system_detail.h"
+#include "core/solid_pairs.h"
 #include "kernels/reference/actuation.h"
 #include "kernels/reference/drag.h"
-#include "kernels/reference/ground.h"
 #include "kernels/reference/pressure.h"
 #include "kernels/reference/spring.h"
 
 namespace metamorph::core {
 
 namespace ref = kernels::reference;
-
-namespace {
-
-std::vector<int> ends_of(const std::vector<std::array<Index, 2>>& edges) {
-  std::vector<int> nodes;
-  for (const auto& edge : edges) nodes.insert(nodes.end(), edge.begin(), edge.end());
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
-}
-
-}  // namespace
 
 ReferenceSystem::ReferenceSystem(const Body& body, const Scene& scene)
     : x(body.x),
@@ -35,9 +23,8 @@ ReferenceSystem::ReferenceSystem(const Body& body, const Scene& scene)
       body_(body),
       scene_(scene),
       outline_(outline_of(body.triangles)),
-      outline_nodes_(ends_of(outline_)),
       length_(body.rest_length),
-      scratch_(12, std::vector<double>(body.x.size())) {
+      scratch_(10, std::vector<double>(body.x.size())) {
   if (scene.ground) {
     const double slope = scene.slope_degrees * std::numbers::pi / 180;
     gravity_ = {-scene.gravity * std::sin(slope), -scene.gravity * std::cos(slope)};
@@ -45,13 +32,10 @@ ReferenceSystem::ReferenceSystem(const Body& body, const Scene& scene)
     for (double& height : y) height -= lowest;
   }
   if (scene.self_collision) {
-    threshold_.resize(outline_nodes_.size() * outline_.size());
-    ref::set_collision_thresholds(outline_nodes_, outline_, scene.collision_gap, x, y, threshold_);
+    for (const SolidPair& pair : solid_pairs(body, scene)) {
+      pairs_.push_back({pair.node, pair.edge, pair.threshold});
+    }
   }
-}
-
-ref::CollisionPairs ReferenceSystem::collision_pairs() const {
-  return {outline_nodes_, outline_, threshold_};
 }
 
 ref::PressureCells ReferenceSystem::pressure_cells() const {
@@ -68,11 +52,9 @@ void ReferenceSystem::set_spring_lengths(double t) {
                  length_);
 }
 
-void ReferenceSystem::forces(const ref::Nodes& nodes, double t, const ref::Forces& sums,
-                             std::span<double> normal) {
+void ReferenceSystem::forces(const ref::Nodes& nodes, double t, const ref::Forces& sums) {
   std::fill(sums.x.begin(), sums.x.end(), 0.0);
   std::fill(sums.y.begin(), sums.y.end(), 0.0);
-  std::fill(normal.begin(), normal.end(), 0.0);
   set_spring_lengths(t);
   ref::add_spring_forces(body_.springs, length_, scene_.stiffness,
                          settling_ ? scene_.settle_damping : scene_.damping, nodes, sums);
@@ -80,34 +62,39 @@ void ReferenceSystem::forces(const ref::Nodes& nodes, double t, const ref::Force
     ref::add_pressure_forces(pressure_cells(), scene_.pressure, nodes, sums);
   if (scene_.drag)
     ref::add_drag_forces(outline_, scene_.drag_normal, scene_.drag_tangential, nodes, sums);
-  if (scene_.ground) {
-    ref::add_weight(gravity_, mass, sums);
-    ref::add_ground_forces(scene_.ground_stiffness, scene_.ground_damping, nodes, normal, sums);
-  }
-  if (scene_.self_collision)
-    ref::add_collision_forces(collision_pairs(), scene_.collision_stiffness, nodes, sums);
+  if (scene_.ground) ref::add_weight(gravity_, mass, sums);
+  ref::add_collision_forces(pairs_, scene_.collision_stiffness, nodes, sums);
   if (settling_) ref::add_node_drag(scene_.settle_drag, nodes, sums);
 }
 
 void ReferenceSystem::step(ReferenceMethod method, double t, double h) {
-  const ref::Workspace work{scratch_[0], scratch_[1], scratch_[2],  scratch_[3],
-                            scratch_[4], scratch_[5], scratch_[6],  scratch_[7],
-                            scratch_[8], scratch_[9], scratch_[10], scratch_[11]};
-  const ref::Step step{t, h, mass, scene_.ground ? scene_.friction : 0};
-  const auto force = [this](const ref::Nodes& nodes, double time, const ref::Forces& sums,
-                            std::span<double> normal) { forces(nodes, time, sums, normal); };
+  const ref::Workspace work{scratch_[0], scratch_[1], scratch_[2], scratch_[3], scratch_[4],
+                            scratch_[5], scratch_[6], scratch_[7], scratch_[8], scratch_[9]};
+  const ref::Step step{t, h, mass};
+  const auto force = [this](const ref::Nodes& nodes, double time, const ref::Forces& sums) {
+    forces(nodes, time, sums);
+  };
+  const auto keep = [this](double drift, std::span<const double> from_x,
+                           std::span<const double> from_y, std::span<double> along_x,
+                           std::span<double> along_y) {
+    ref::keep_apart(solid(), drift, from_x, from_y, along_x, along_y);
+  };
   switch (method) {
     case ReferenceMethod::symplectic_euler:
-      return ref::symplectic_euler(state(), work, step, force);
+      return ref::symplectic_euler(state(), work, step, force, keep);
     case ReferenceMethod::drift_kick_drift:
-      return ref::drift_kick_drift(state(), work, step, force);
+      return ref::drift_kick_drift(state(), work, step, force, keep);
     case ReferenceMethod::velocity_verlet:
-      return ref::velocity_verlet(state(), work, step, force);
+      return ref::velocity_verlet(state(), work, step, force, keep);
     case ReferenceMethod::midpoint:
-      return ref::midpoint(state(), work, step, force);
+      return ref::midpoint(state(), work, step, force, keep);
     case ReferenceMethod::runge_kutta_4:
-      return ref::runge_kutta_4(state(), work, step, force);
+      return ref::runge_kutta_4(state(), work, step, force, keep);
   }
+}
+
+ref::Solid ReferenceSystem::solid() const {
+  return {pairs_, scene_.collision_least_gap, scene_.ground, scene_.friction};
 }
 
 double ReferenceSystem::potential_energy(double t) {
@@ -115,12 +102,8 @@ double ReferenceSystem::potential_energy(double t) {
   double energy = ref::spring_energy(body_.springs, length_, scene_.stiffness, nodes());
   if (scene_.pressure != 0)
     energy += ref::pressure_energy(pressure_cells(), scene_.pressure, nodes());
-  if (scene_.ground)
-    energy += ref::weight_energy(gravity_, mass, nodes()) +
-              ref::ground_energy(scene_.ground_stiffness, nodes());
-  if (scene_.self_collision)
-    energy += ref::collision_energy(collision_pairs(), scene_.collision_stiffness, nodes());
-  return energy;
+  if (scene_.ground) energy += ref::weight_energy(gravity_, mass, nodes());
+  return energy + ref::collision_energy(pairs_, scene_.collision_stiffness, nodes());
 }
 
 double ReferenceSystem::kinetic_energy() const {

@@ -11,6 +11,7 @@
 #include "kernels/reference/gravity.h"
 #include "kernels/reference/integrators.h"
 #include "kernels/reference/self_collision.h"
+#include "kernels/reference/solid.h"
 #include "kernels/reference/views.h"
 
 namespace metamorph::core {
@@ -28,19 +29,22 @@ class ReferenceSystem {
   /// One step of size h from time t (time units since the start of actuation).
   void step(ReferenceMethod method, double t, double h);
 
-  /// Sums of all forces of the scene, friction left out, and the ground's normal force per node.
+  /// Sums of all forces of the scene. What is solid acts by impulses and is no part of them.
   void forces(const kernels::reference::Nodes& nodes, double t,
-              const kernels::reference::Forces& sums, std::span<double> normal);
+              const kernels::reference::Forces& sums);
+
+  /// What acts by impulses in every step: ground, friction, the outline against itself.
+  kernels::reference::Solid solid() const;
 
   /// Energy of everything that is conservative: springs at the rest lengths of time t, pressure,
-  /// weight, ground, self-collision.
+  /// weight, self-collision.
   double potential_energy(double t);
   double kinetic_energy() const;
 
   kernels::reference::Health examine(double h) const;
   kernels::reference::State state() { return {x, y, vx, vy, ax, ay}; }
   kernels::reference::Nodes nodes() const { return {x, y, vx, vy}; }
-  kernels::reference::CollisionPairs collision_pairs() const;
+  std::span<const kernels::reference::CollisionPair> collision_pairs() const { return pairs_; }
   kernels::reference::PressureCells pressure_cells() const;
   std::array<double, 2> mean_position() const;
   double max_speed() const;
@@ -49,7 +53,7 @@ class ReferenceSystem {
   double mass = 1;             ///< of every node, m
   std::vector<double> x, y;    ///< [nodes] position, d
   std::vector<double> vx, vy;  ///< [nodes] velocity, d per time unit
-  std::vector<double> ax, ay;  ///< [nodes] acceleration of the previous step, with friction
+  std::vector<double> ax, ay;  ///< [nodes] acceleration of the previous step, with impulses
 
  private:
   void set_spring_lengths(double t);
@@ -59,9 +63,8 @@ class ReferenceSystem {
   bool settling_ = false;
   kernels::reference::Gravity gravity_;
   std::vector<std::array<Index, 2>> outline_;
-  std::vector<int> outline_nodes_;  // ascending
-  std::vector<double> threshold_;   // [outline nodes x outline edges]
-  std::vector<double> length_;      // [springs] actuated rest length
+  std::vector<kernels::reference::CollisionPair> pairs_;
+  std::vector<double> length_;  // [springs] actuated rest length
   std::vector<std::vector<double>> scratch_;
 };
 

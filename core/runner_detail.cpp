@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/scene_terms_detail.h"
@@ -13,9 +12,8 @@ namespace {
 
 // Failures are absorbing: a check now and then misses nothing, it is only late by so many steps.
 constexpr std::int64_t check_interval = 8;
-constexpr double collapse_ratio = 0.05;  ///< S/S0 below which the step resolves nothing
-constexpr double speed_limit = 4.0;      ///< sqrt(k/m) d: the pressure's barrier gives way above
-constexpr double travel_limit = 0.5;     ///< d per step
+// The outline is kept whole by what stops approaches; this looks whether it was.
+constexpr std::int64_t outline_interval = 96;
 
 std::int64_t steps_of(int paper_steps, double step) {
   return std::llround(paper_steps * paper_step / step);
@@ -51,9 +49,11 @@ void Runner<T>::run(std::size_t i, const LocomotionTask& task, Outcome& outcome,
   coefficients_ = coefficients_of<T>(*scene_, method_);
   step_ = scene_->step;
   extremes_ = {};
+  fastest_ = T(0);
   touched_ = false;
+  prepare_looks();
   if (scene_->self_collision) {
-    collisions_.reset(*body_, *scene_, batch_.outline_nodes(i), batch_.outline_edges(i));
+    collisions_.reset(*body_, *scene_, batch_, i);
   }
   if (scene_->ground && !settle(outcome)) return;
   actuate(outcome, every, observe);
@@ -64,23 +64,69 @@ void Runner<T>::step(std::uint64_t n) {
   kernels::Terms terms = terms_of(*scene_, actuation_);
   if (scene_->self_collision) {
     auto &fx = state_.extra_fx, &fy = state_.extra_fy;
-    if (touched_) {  // outline nodes, which fill the first groups
-      const auto lanes = static_cast<std::ptrdiff_t>(kernels::lane_index<T>(view_.outline_groups));
+    if (touched_) {
+      const auto lanes = static_cast<std::ptrdiff_t>(kernels::lane_index<T>(collisions_.groups()));
       std::fill(fx.begin(), fx.begin() + lanes, T(0));
       std::fill(fy.begin(), fy.begin() + lanes, T(0));
     }
-    touched_ = kernels::add_collision_forces(collisions_.pairs(view_.now, view_.inverse_mass),
-                                             view_.now, static_cast<T>(scene_->collision_stiffness),
-                                             fx.data(), fy.data()) > 0;
+    pairs_ = collisions_.pairs(view_.now, view_.inverse_mass);
+    // At the speeds of the last step, and some more: hardly ever does it have to be looked again.
+    reach_ = reach_at(fastest_) * T(1.25) + T(0.02);
+    const kernels::PairCounts found =
+        meet(static_cast<T>(scene_->collision_stiffness), fx.data(), fy.data());
+    near_ = found.near;
+    touched_ = found.touching > 0;
     terms.extra = touched_;
   }
   const auto before = extremes_.largest_speed2;
   extremes_.largest_speed2 = kernels::Lanes<T>(T(0));
   step_function<T>(terms)(view_, coefficients_, static_cast<kernels::Turn<T>>(n), extremes_);
-  if (scene_->self_collision) collisions_.advance(extremes_.largest_speed2, coefficients_.step);
   fastest2_ = extremes_.largest_speed2;
   extremes_.largest_speed2 = kernels::max(fastest2_, before);
+  if (scene_->self_collision) stop();
   std::swap(view_.now, view_.next);
+}
+
+/// What a pair that approaches at twice this speed may come nearer in a step, d.
+template <class T>
+T Runner<T>::reach_at(T speed) const {
+  return 2 * coefficients_.step * speed;
+}
+
+/// Finds the pairs within `reach_`, and adds their penalty.
+template <class T>
+kernels::PairCounts Runner<T>::meet(T stiffness, T* fx, T* fy) {
+  return kernels::meet_pairs(pairs_, view_.now, stiffness,
+                             static_cast<T>(scene_->collision_least_gap), reach_, fx, fy,
+                             collisions_.approaches());
+}
+
+/// Between kick and drift, which the step has done in one: stops what would come too near.
+template <class T>
+void Runner<T>::stop() {
+  fastest_ = std::sqrt(largest(fastest2_));
+  collisions_.advance(fastest2_, coefficients_.step);
+  bool all_near = collisions_.held(view_.now, view_.next, view_.inverse_mass);
+  if (!all_near) pairs_ = collisions_.pairs(view_.now, view_.inverse_mass);
+  const kernels::StopStep<T> stop_step{coefficients_.step, T(1) / coefficients_.step,
+                                       coefficients_.extrapolate / coefficients_.step,
+                                       scene_->ground, coefficients_.friction};
+  T fastest = fastest_;
+  while (true) {
+    if (!all_near || reach_at(fastest) > reach_) {
+      reach_ = reach_at(fastest) * T(1.25);
+      near_ = meet(T(0), state_.extra_fx.data(), state_.extra_fy.data()).near;
+      all_near = true;
+    }
+    const kernels::Approach<T>* const begin = collisions_.approaches();
+    const kernels::Stopped<T> stopped = kernels::stop_approaches(
+        begin, begin + near_, stop_step, view_.now, view_.next, view_.vx, view_.vy);
+    if (!stopped.any) return;
+    collisions_.advance(kernels::Lanes<T>(stopped.change * stopped.change), coefficients_.step);
+    // What was pushed may be faster than all before; then more may be near.
+    fastest = std::sqrt(stopped.fastest2);
+    if (!(reach_at(fastest) > reach_)) return;
+  }
 }
 
 template <class T>
@@ -97,7 +143,7 @@ bool Runner<T>::settle(Outcome& outcome) {
     ++n;
     outcome.steps = n;
     outcome.settle_time = static_cast<double>(n) * step_;
-    if (n % check_interval == 0 && !sound(outcome)) return false;
+    if (n % check_interval == 0 && !sound(outcome, n % outline_interval == 0)) return false;
   }
   end_settling();
   if (quiet < quiet_needed) outcome.status = Status::not_settled;
@@ -151,86 +197,16 @@ void Runner<T>::actuate(Outcome& outcome, int every,
     coefficients_.swing_cosine = static_cast<T>(amplitude * swing.cosine);
     step(count_from_start);
     outcome.steps = settled + n + 1;
-    if (((n + 1) % check_interval == 0 || n + 1 == count) && !sound(outcome)) return;
+    const bool last = n + 1 == count;
+    if (((n + 1) % check_interval == 0 || last) &&
+        !sound(outcome, (n + 1) % outline_interval == 0 || last)) {
+      return;
+    }
     if (observe && (n + 1) % every == 0) show(observe, n + 1);
   }
   const Mean end = mean_position();
   outcome.mean_position = {end.x - start.x, scene.ground ? end.y : end.y - start.y};
   outcome.distance = travelled(scene.distance, end.x - start.x, end.y - start.y);
-}
-
-/// Looks at what the steps have seen; fills the failure's fields and returns false if it is one.
-template <class T>
-bool Runner<T>::sound(Outcome& outcome) {
-  const double speed = std::sqrt(static_cast<double>(largest(extremes_.largest_speed2)));
-  const double largest_ratio = static_cast<double>(largest(extremes_.largest_ratio));
-  const T smallest_ratio = -largest(-extremes_.smallest_ratio);
-  outcome.max_speed = std::max(outcome.max_speed, speed);
-  if (largest_ratio > 0)
-    outcome.min_area_ratio = std::min(outcome.min_area_ratio, 1 / largest_ratio);
-
-  if (!(sum(extremes_.not_finite) == T(0)) || !std::isfinite(speed)) {
-    outcome.status = Status::non_finite;
-  } else if (smallest_ratio < 0) {
-    outcome.status = Status::inverted;
-    outcome.min_area_ratio = std::min(outcome.min_area_ratio, 0.0);
-  } else if (outcome.min_area_ratio < collapse_ratio) {
-    outcome.status = Status::collapsed;
-    outcome.failed_value = outcome.min_area_ratio;
-  } else if (speed > speed_limit || speed * step_ > travel_limit) {
-    outcome.status = Status::speed;
-    outcome.failed_value = speed;
-  } else {
-    return true;
-  }
-  outcome.failed_step = outcome.steps;
-  outcome.distance = 0;
-  locate_failure(outcome);
-  return false;
-}
-
-/// Index and value of a failure in the state it was found in: the node that is not finite or
-/// fastest, the triangle most squeezed or turned.
-template <class T>
-void Runner<T>::locate_failure(Outcome& outcome) const {
-  const auto lanes = batch_.node_of_lane(index_);
-  if (outcome.status == Status::inverted || outcome.status == Status::collapsed) {
-    std::vector<std::size_t> lane_of(static_cast<std::size_t>(body_->node_count()));
-    for (std::size_t l = 0; l < lanes.size(); ++l) {
-      if (lanes[l] >= 0) lane_of[static_cast<std::size_t>(lanes[l])] = l;
-    }
-    double smallest = std::numeric_limits<double>::infinity();
-    for (std::size_t t = 0; t < body_->triangles.size(); ++t) {
-      if (body_->rest_area[t] < scene_->min_pressure_area) continue;
-      const auto& [a, b, c] = body_->triangles[t];
-      const auto& p = view_.now[lane_of[static_cast<std::size_t>(a)]];
-      const auto& q = view_.now[lane_of[static_cast<std::size_t>(b)]];
-      const auto& r = view_.now[lane_of[static_cast<std::size_t>(c)]];
-      const double area =
-          0.5 * (double(q.x - p.x) * double(r.y - p.y) - double(r.x - p.x) * double(q.y - p.y));
-      if (area / body_->rest_area[t] < smallest) {
-        smallest = area / body_->rest_area[t];
-        outcome.failed_index = static_cast<int>(t);
-      }
-    }
-    if (outcome.status == Status::inverted) outcome.failed_value = smallest;
-    return;
-  }
-  double fastest = -1;
-  for (std::size_t l = 0; l < lanes.size(); ++l) {
-    if (lanes[l] < 0) continue;
-    const double vx = static_cast<double>(view_.vx[l]), vy = static_cast<double>(view_.vy[l]);
-    const double speed2 = vx * vx + vy * vy;
-    if (!std::isfinite(speed2)) {
-      outcome.failed_index = lanes[l];
-      outcome.failed_value = speed2;
-      return;
-    }
-    if (speed2 > fastest) {
-      fastest = speed2;
-      outcome.failed_index = lanes[l];
-    }
-  }
 }
 
 // A record holds x_n + h/2 v_n with drift-kick-drift, x_n with symplectic Euler.
@@ -259,11 +235,12 @@ typename Runner<T>::Mean Runner<T>::mean_position() const {
 template <class T>
 void Runner<T>::show(const std::function<void(const Frame&)>& observe, std::int64_t step_index) {
   const auto lanes = batch_.node_of_lane(index_);
+  const std::array<double, 2> origin = batch_.origin(index_);
   for (auto& values : frame_) values.resize(static_cast<std::size_t>(view_.nodes));
   for (int l = 0; l < view_.nodes; ++l) {
     const auto node = static_cast<std::size_t>(lanes[static_cast<std::size_t>(l)]);
-    frame_[0][node] = position_x(l);
-    frame_[1][node] = position_y(l);
+    frame_[0][node] = position_x(l) + origin[0];
+    frame_[1][node] = position_y(l) + (scene_->ground ? 0 : origin[1]);
     frame_[2][node] = static_cast<double>(view_.vx[l]);
     frame_[3][node] = static_cast<double>(view_.vy[l]);
   }

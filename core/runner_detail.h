@@ -31,7 +31,14 @@ class Runner {
   void begin_settling();
   void end_settling();
   void step(std::uint64_t n);
-  bool sound(Outcome& outcome);
+  T reach_at(T speed) const;
+  kernels::PairCounts meet(T stiffness, T* fx, T* fy);
+  void stop();
+  bool sound(Outcome& outcome, bool look_at_outline);
+  void prepare_looks();
+  bool solid(Outcome& outcome);
+  void find_crossing(Outcome& outcome);
+  double area(std::size_t triangle) const;
   void locate_failure(Outcome& outcome) const;
   double position_x(int lane) const;
   double position_y(int lane) const;
@@ -54,6 +61,13 @@ class Runner {
   bool touched_ = false;                                     ///< the extra forces hold something
   kernels::Lanes<T> fastest2_{T(0)};  ///< squared, of the last step, each lane for itself
   CollisionList<T> collisions_;
+  kernels::CollisionPairs<T> pairs_{};  ///< of the step
+  int near_ = 0;                        ///< pairs within reach_
+  T reach_ = 0;                         ///< d, see kernels::meet_pairs
+  T fastest_ = 0;                       ///< speed of the last step
+  std::vector<std::size_t> lane_of_;           ///< [nodes of the body]
+  std::vector<std::size_t> without_pressure_;  ///< triangles
+  Aligned<T> look_[6];                         ///< [outline edges], see kernels::EdgeLook
   std::vector<double> frame_[4];
 };
 

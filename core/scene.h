@@ -34,17 +34,16 @@ struct Scene {
   double drag_tangential = 0.01;  ///< d_T
 
   // Land.
-  bool ground = false;            ///< gravity, contact at y = 0 and friction
-  double gravity = 0.02;          ///< g
-  double slope_degrees = 0.0;     ///< gravity is turned by this angle; +x is uphill
-  double ground_stiffness = 4.0;  ///< k_n
-  double ground_damping = 0.8;    ///< c_n
-  double friction = 0.8;          ///< mu
+  bool ground = false;         ///< gravity, solid ground at y = 0 and friction
+  double gravity = 0.02;       ///< g
+  double slope_degrees = 0.0;  ///< gravity is turned by this angle; +x is uphill
+  double friction = 0.8;       ///< mu
 
-  // Self-collision.
+  // Self-collision: the outline repels itself below a gap, and stops what comes too near.
   bool self_collision = true;
-  double collision_stiffness = 2.0;  ///< k_s
-  double collision_gap = 0.3;        ///< d
+  double collision_stiffness = 4.0;   ///< k_s
+  double collision_gap = 0.3;         ///< d; the distance at rest where that is smaller
+  double collision_least_gap = 0.05;  ///< delta, d; half the distance at rest where that is smaller
 
   // Time.
   double step = 0.2;     ///< time units per integrator step, or automatic_step

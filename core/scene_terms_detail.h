@@ -32,8 +32,6 @@ kernels::StepCoefficients<T> coefficients_of(const Scene& scene, Method method) 
   c.drag_tangential = static_cast<T>(scene.drag_tangential);
   c.gravity_x = static_cast<T>(-scene.gravity * std::sin(angle));
   c.gravity_y = static_cast<T>(-scene.gravity * std::cos(angle));
-  c.ground_stiffness = static_cast<T>(scene.ground_stiffness);
-  c.ground_damping = static_cast<T>(scene.ground_damping);
   c.friction = static_cast<T>(scene.friction);
   c.settle_drag = static_cast<T>(scene.settle_drag);
   return c;

@@ -23,7 +23,7 @@ enum class Actuation : unsigned {
 struct Terms {
   bool pressure = true;
   bool drag = false;    ///< of outline edges, eq 4 and 5
-  bool ground = false;  ///< gravity, contact, friction
+  bool ground = false;  ///< gravity, solid ground, friction
   bool extra = false;   ///< forces from outside the step
   Actuation actuation = Actuation::one_period;
 };
@@ -53,7 +53,7 @@ struct StepCoefficients {
   T swing_cosine = 0;  ///< A r(t) cos(2 pi t/T)
   T drag_normal = 0, drag_tangential = 0;
   T gravity_x = 0, gravity_y = 0;
-  T ground_stiffness = 0, ground_damping = 0, friction = 0;
+  T friction = 0;
   T settle_drag = 0;
 };
 
@@ -83,7 +83,7 @@ struct Records {
 /// The scheme is leapfrog in its staggered form. A record holds the midpoint x_n + h/2 v_n and the
 /// velocity extrapolated there, v_n + h/2 a_(n-1); the kick gives v_(n+1) = v_n + h a_n, and the
 /// next midpoint is x_mid + h v_(n+1): two half drifts in one. The acceleration that extrapolates
-/// is that of the velocity, friction included: what friction holds does not move. With
+/// is that of the velocity, ground and friction included: what they hold does not move. With
 /// `extrapolate` 0 and records that hold (x_n, v_n) the same loop is symplectic Euler. `n` counts
 /// steps for the oscillators.
 ///
@@ -97,7 +97,7 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
   const Pack amplitude(c.amplitude), h(c.step), extrapolate(c.extrapolate);
   const Pack extrapolate_share(c.extrapolate / c.step);
   const Pack swing_sine(c.swing_sine), swing_cosine(c.swing_cosine);
-  const GroundCoefficients<T> ground{c.ground_stiffness, c.ground_damping, c.friction};
+  const Pack inverse_step(T(1) / c.step), friction(c.friction);
   const DragCoefficients<T> drag{c.drag_normal, c.drag_tangential};
 
   StepExtremes<T> extremes = seen;  // a copy stays in registers
@@ -209,11 +209,9 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
       }
     }
 
-    Pack normal = zero;
     if constexpr (terms.ground) {
-      normal = ground_normal(self.y, self.vy, ground);
       fx += Pack(c.gravity_x);
-      fy += Pack(c.gravity_y) + normal;
+      fy += Pack(c.gravity_y);
     }
     if constexpr (terms.actuation == Actuation::none) {
       fx = fma(Pack(-c.settle_drag), self.vx, fx);
@@ -222,18 +220,30 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
 
     const Pack inverse_mass = Pack::load(body.inverse_mass + node_base);
     const Pack ax = fx * inverse_mass, ay = fy * inverse_mass;
-    const Pack old_vx = Pack::load(body.vx + node_base);
-    Pack vx = fma(h, ax, old_vx);
-    const Pack vy = fma(h, ay, Pack::load(body.vy + node_base));
-    Pack next_vx = fma(extrapolate, ax, vx);
+    const Pack old_vx = Pack::load(body.vx + node_base), old_vy = Pack::load(body.vy + node_base);
+    Pack vx = fma(h, ax, old_vx), vy = fma(h, ay, old_vy);
+    Pack next_vx = fma(extrapolate, ax, vx), next_vy = fma(extrapolate, ay, vy);
     if constexpr (terms.ground) {
-      vx = after_friction(vx, ground.friction * h * normal * inverse_mass);
+#ifdef SOFT_GROUND
+      {
+        const Pack push = fma(Pack(T(-0.8)), self.vy, -(Pack(T(4)) * self.y));
+        const Pack normal = select(self.y < zero, max(push, zero), zero);
+        vy = fma(h * normal, inverse_mass, vy);
+        vx = after_friction(vx, friction * h * normal * inverse_mass);
+        next_vx = fma(extrapolate_share, vx - old_vx, vx);
+        next_vy = fma(extrapolate_share, vy - old_vy, vy);
+      }
+#else
+      const Pack falling = vy;
+      vy = max(falling, least_rise(self.y, inverse_step));
+      vx = after_friction(vx, friction * (vy - falling));
       next_vx = fma(extrapolate_share, vx - old_vx, vx);
+      next_vy = fma(extrapolate_share, vy - old_vy, vy);
+#endif
     }
     vx.store(body.vx + node_base);
     vy.store(body.vy + node_base);
-    state.put(node_base,
-              {fma(h, vx, self.x), fma(h, vy, self.y), next_vx, fma(extrapolate, ay, vy)});
+    state.put(node_base, {fma(h, vx, self.x), fma(h, vy, self.y), next_vx, next_vy});
 
     const Pack speed2 = fma(vx, vx, vy * vy);
     extremes.largest_speed2 = max(speed2, extremes.largest_speed2);

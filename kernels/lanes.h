@@ -46,6 +46,7 @@ template <class T>
 struct LaneMask {
   typename LaneTypes<T>::Mask v;
   friend LaneMask operator&(LaneMask a, LaneMask b) { return {a.v & b.v}; }
+  friend LaneMask operator|(LaneMask a, LaneMask b) { return {a.v | b.v}; }
 };
 
 template <class T>

@@ -112,44 +112,73 @@ inline CollisionBlock* copy_near(const CollisionBlock* from, const CollisionBloc
   });
 }
 
+/// A pair so near that it may have to be stopped in this step.
+template <class T>
+struct Approach {
+  std::uint32_t node, first, second;  ///< lanes
+  T share;                            ///< of the edge, where it is nearest to the node
+  T nx, ny;                           ///< unit vector from there to the node
+  T room;                             ///< what the gap exceeds its least by, d; negative below that
+};
+
+/// How many pairs repel each other, and how many approaches were found.
+struct PairCounts {
+  int touching, near;
+};
+
 /// Adds the elastic penalty of every pair closer than its threshold (MODEL section 4):
 /// k_s (threshold - gap) on the node along the gap, the opposite shared by the edge's ends
 /// barycentrically. Computed in lanes, but added one after the other, in order, so that pairs that
-/// do not touch change no bit. Returns how many touch. fx, fy: [lanes of the body].
+/// do not touch change no bit. fx, fy: [lanes of the body].
+///
+/// Lists the pairs whose room, over a least gap of min(least_gap, threshold / 2), is below `reach`
+/// in `approaches`, which has place for all, in order.
 template <class T>
-inline int add_collision_forces(const CollisionPairs<T>& pairs, const NodeRecord<T>* records,
-                                T stiffness, T* fx, T* fy) {
+inline PairCounts meet_pairs(const CollisionPairs<T>& pairs, const NodeRecord<T>* records,
+                             T stiffness, T least_gap, T reach, T* fx, T* fy,
+                             Approach<T>* approaches) {
   using Pack = Lanes<T>;
-  int touching = 0;
+  PairCounts counts{0, 0};
+  const Pack zero(T(0)), half(T(0.5)), least_gap_everywhere(least_gap), reach_everywhere(reach);
   for (int base = 0; base < pairs.count; base += Pack::width) {
     const NodePack<T> p = gather(records, pairs.node + base);
     const NodePack<T> a = gather(records, pairs.first + base);
     const NodePack<T> b = gather(records, pairs.second + base);
     const Pack threshold = Pack::load(pairs.threshold + base);
-    const auto near = nearest_on_segment(p.x, p.y, a.x, a.y, b.x, b.y);
-    std::uint32_t touch =
-        bits((near.distance2 < threshold * threshold) & (near.distance2 > Pack(T(0))));
-    if (touch == 0) continue;
-    const Pack gap = sqrt(near.distance2);
+    const Pack least = min(half * threshold, least_gap_everywhere);
+    const Pack far = max(threshold, least + reach_everywhere);
+    const auto nearest = nearest_on_segment(p.x, p.y, a.x, a.y, b.x, b.y);
+    std::uint32_t concerned =
+        bits((nearest.distance2 < far * far) & (nearest.distance2 > zero) & (threshold > zero));
+    if (concerned == 0) continue;
+    const Pack gap = sqrt(nearest.distance2);
     const Pack scale = Pack(stiffness) * (threshold - gap) / gap;
-    const Pack sx = scale * near.dx, sy = scale * near.dy;
-    const Pack first = Pack(T(1)) - near.share;
-    const Pack ax = first * sx, ay = first * sy, bx = near.share * sx, by = near.share * sy;
-    for (; touch != 0; touch &= touch - 1) {
-      const int lane = std::countr_zero(touch);
+    const Pack nx = nearest.dx / gap, ny = nearest.dy / gap, room = gap - least;
+    const Pack sx = scale * nearest.dx, sy = scale * nearest.dy;
+    const Pack first = Pack(T(1)) - nearest.share;
+    const Pack ax = first * sx, ay = first * sy, bx = nearest.share * sx, by = nearest.share * sy;
+    for (; concerned != 0; concerned &= concerned - 1) {
+      const int lane = std::countr_zero(concerned);
       const auto at = [&](const std::uint32_t* offset) {
         return offset[base + lane] / record_offset<T>(1);
       };
-      fx[at(pairs.node)] += sx[lane];
-      fy[at(pairs.node)] += sy[lane];
-      fx[at(pairs.first)] -= ax[lane];
-      fy[at(pairs.first)] -= ay[lane];
-      fx[at(pairs.second)] -= bx[lane];
-      fy[at(pairs.second)] -= by[lane];
-      ++touching;
+      const std::uint32_t node = at(pairs.node), one = at(pairs.first), other = at(pairs.second);
+      if (gap[lane] < threshold[lane]) {
+        fx[node] += sx[lane];
+        fy[node] += sy[lane];
+        fx[one] -= ax[lane];
+        fy[one] -= ay[lane];
+        fx[other] -= bx[lane];
+        fy[other] -= by[lane];
+        ++counts.touching;
+      }
+      if (room[lane] < reach) {
+        approaches[counts.near++] = {node,     one,      other,     nearest.share[lane],
+                                     nx[lane], ny[lane], room[lane]};
+      }
     }
   }
-  return touching;
+  return counts;
 }
 
 }  // namespace metamorph::kernels
