@@ -88,7 +88,10 @@ struct BodyBatch<T>::Plan {
 
 template <class T>
 BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, int threads)
-    : extent_(tasks.size()), offset_(tasks.size() + 1), advance_(tasks.size()), origin_(tasks.size()) {
+    : extent_(tasks.size()),
+      offset_(tasks.size() + 1),
+      advance_(tasks.size()),
+      origin_(tasks.size()) {
   const auto count = static_cast<std::int64_t>(tasks.size());
   std::vector<Plan> plans;
   plans.reserve(tasks.size());

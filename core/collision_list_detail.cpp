@@ -30,8 +30,8 @@ void CollisionList<T>::reset(const Body& body, const Scene& scene, const BodyBat
   list_all_blocks(edges);
   find_close_at_rest(body, edges);
   find_lasting(body, scene, batch.node_of_lane(i));
-  groups_ = static_cast<int>(lasting_.empty() ? outline_groups
-                                              : batch.node_of_lane(i).size() / width);
+  groups_ =
+      static_cast<int>(lasting_.empty() ? outline_groups : batch.node_of_lane(i).size() / width);
   // No more pairs than these can come up, so that nothing is allocated while it runs.
   const std::size_t most = nodes_.size() * edges.size() + lasting_.size() + width;
   if (pair_node_.size() < most) {
@@ -181,7 +181,8 @@ void CollisionList<T>::renew_pairs(const kernels::NodeRecord<T>* records, T limi
       add(node_[p], first_[found->edge], second_[found->edge], threshold(found->edge, p));
     }
   }
-  for (const LastingPair& pair : lasting_) append(pair.node, pair.first, pair.second, pair.threshold);
+  for (const LastingPair& pair : lasting_)
+    append(pair.node, pair.first, pair.second, pair.threshold);
   while (count_ % width != 0) append(0, 0, 0, T(0));
 }
 
@@ -203,9 +204,9 @@ void CollisionList<T>::add(std::uint32_t node, std::uint32_t first, std::uint32_
     return nodes_[offset / kernels::record_offset<T>(1)];
   };
   append(node, first, second, threshold);
-  for (std::size_t i = count_ - 1; i > 0 && pair_first_[i - 1] == first &&
-                                   pair_second_[i - 1] == second &&
-                                   number(pair_node_[i - 1]) > number(node);
+  for (std::size_t i = count_ - 1;
+       i > 0 && pair_first_[i - 1] == first && pair_second_[i - 1] == second &&
+       number(pair_node_[i - 1]) > number(node);
        --i) {
     std::swap(pair_node_[i - 1], pair_node_[i]);
     std::swap(pair_threshold_[i - 1], pair_threshold_[i]);
@@ -230,7 +231,8 @@ bool CollisionList<T>::held(const kernels::NodeRecord<T>* now, const kernels::No
   // A step may be longer than half a skin: then the skin is the wider for once.
   const T way = largest(way_) * static_cast<T>(room);
   const T limit = std::max(way, static_cast<T>(narrow_skin / 2));
-  if (limit > static_cast<T>(narrow_skin / 2) || !block_watch_.holds(now, weight)) renew_blocks(now);
+  if (limit > static_cast<T>(narrow_skin / 2) || !block_watch_.holds(now, weight))
+    renew_blocks(now);
   renew_pairs(now, limit);
   block_watch_.advance(way_);
   pair_watch_.advance(way_);

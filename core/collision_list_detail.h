@@ -76,7 +76,7 @@ class CollisionList {
 
   T gap_ = 0;
   int groups_ = 0;
-  kernels::Lanes<T> way_{T(0)};  ///< of the last step, each lane for itself
+  kernels::Lanes<T> way_{T(0)};   ///< of the last step, each lane for itself
   std::span<const Index> nodes_;  ///< of the outline's lanes
   std::size_t edges_ = 0;
   // Outline nodes along the contour, so that those of a group are near each other.

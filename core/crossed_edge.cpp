@@ -26,8 +26,9 @@ std::optional<CrossedEdge> crossed_edge(const Body& body, std::span<const double
       const auto [low, high] = std::minmax(edge[0], edge[1]);
       const std::array<Index, 2> spring = {low, high};
       found.node = node;
-      found.spring = static_cast<Index>(
-          std::lower_bound(body.springs.begin(), body.springs.end(), spring) - body.springs.begin());
+      found.spring =
+          static_cast<Index>(std::lower_bound(body.springs.begin(), body.springs.end(), spring) -
+                             body.springs.begin());
     }
   }
   return found;

@@ -61,10 +61,10 @@ class Runner {
   bool touched_ = false;                                     ///< the extra forces hold something
   kernels::Lanes<T> fastest2_{T(0)};  ///< squared, of the last step, each lane for itself
   CollisionList<T> collisions_;
-  kernels::CollisionPairs<T> pairs_{};  ///< of the step
-  int near_ = 0;                        ///< pairs within reach_
-  T reach_ = 0;                         ///< d, see kernels::meet_pairs
-  T fastest_ = 0;                       ///< speed of the last step
+  kernels::CollisionPairs<T> pairs_{};         ///< of the step
+  int near_ = 0;                               ///< pairs within reach_
+  T reach_ = 0;                                ///< d, see kernels::meet_pairs
+  T fastest_ = 0;                              ///< speed of the last step
   std::vector<std::size_t> lane_of_;           ///< [nodes of the body]
   std::vector<std::size_t> without_pressure_;  ///< triangles
   Aligned<T> look_[6];                         ///< [outline edges], see kernels::EdgeLook

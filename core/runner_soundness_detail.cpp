@@ -11,7 +11,7 @@ namespace {
 
 constexpr double collapse_ratio = 0.05;  ///< S/S0 below which the step resolves nothing
 constexpr double speed_limit = 4.0;      ///< sqrt(k/m) d: the pressure's barrier gives way above
-constexpr double travel_limit = 0.5;     ///< d per step
+constexpr double travel_limit = 0.8;     ///< d per step
 
 }  // namespace
 
@@ -28,8 +28,8 @@ void Runner<T>::prepare_looks() {
     if (body_->rest_area[t] < scene_->min_pressure_area) without_pressure_.push_back(t);
   }
   const auto edges = batch_.outline_edges(index_);
-  const std::size_t filled = (edges.size() + BodyBatch<T>::width - 1) / BodyBatch<T>::width *
-                             BodyBatch<T>::width;
+  const std::size_t filled =
+      (edges.size() + BodyBatch<T>::width - 1) / BodyBatch<T>::width * BodyBatch<T>::width;
   for (auto& values : look_) values.assign(filled, T(0));
   for (std::size_t e = 0; e < edges.size(); ++e) {
     look_[0][e] = static_cast<T>(edges[e][0]);

@@ -21,7 +21,8 @@ struct SolidPair {
 std::vector<SolidPair> solid_pairs(const Body& body, const Scene& scene);
 
 /// Each corner of a triangle too small for pressure against the side opposite to it, unless that is
-/// a pair of the outline anyway: nothing but their distance keeps such a triangle from turning over.
+/// a pair of the outline anyway: nothing but their distance keeps such a triangle from turning
+/// over.
 std::vector<SolidPair> corners_without_pressure(const Body& body, const Scene& scene);
 
 }  // namespace metamorph::core

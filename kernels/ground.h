@@ -4,8 +4,8 @@
 
 namespace metamorph::kernels {
 
-/// Least upward velocity that keeps a node out of the ground y = 0 until the step's drift ends: what
-/// is above may come down to it within the step, what is not may sink no further.
+/// Least upward velocity that keeps a node out of the ground y = 0 until the step's drift ends:
+/// what is above may come down to it within the step, what is not may sink no further.
 template <class T>
 inline Lanes<T> least_rise(Lanes<T> y, Lanes<T> inverse_step) {
   return -(max(y, Lanes<T>(T(0))) * inverse_step);

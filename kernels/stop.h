@@ -41,10 +41,12 @@ inline T least_separation(T room, T separation, T inverse_step) {
 }
 
 /// Stops approaches: an impulse along the gap where a pair would come nearer than its least gap
-/// within the drift (MODEL section 4). The edge's ends take the opposite, barycentrically, so that
-/// momentum and angular momentum stay; what lies on the ground is held by it. One pair after the
-/// other, in sweeps, until none needs it. `now` are the positions the drift starts from, `next`
-/// those it leads to, with the velocities extrapolated; both velocities and `next` are corrected.
+/// within the drift (MODEL section 4), where it is nearest now or, along the same direction, where
+/// it will be then: it may slide along while the edge turns. The edge's ends take the opposite,
+/// barycentrically, so that momentum and angular momentum stay; what lies on the ground is held by
+/// it. One pair after the other, in sweeps, until none needs it. `now` are the positions the drift
+/// starts from, `next` those it leads to, with the velocities extrapolated; both velocities and
+/// `next` are corrected.
 template <class T>
 inline Stopped<T> stop_approaches(const Approach<T>* begin, const Approach<T>* end,
                                   const StopStep<T>& s, const NodeRecord<T>* now,
@@ -74,13 +76,30 @@ inline Stopped<T> stop_approaches(const Approach<T>* begin, const Approach<T>* e
     bool acted = false;
     for (const Approach<T>* pair = begin; pair != end; ++pair) {
       const std::uint32_t p = pair->node, a = pair->first, b = pair->second;
+      const T ex = now[b].x - now[a].x, ey = now[b].y - now[a].y;
+      const T ux = vx[b] - vx[a], uy = vy[b] - vy[a];  // of the edge's second end
+      const T wx = vx[p] - vx[a],
+              wy = vy[p] - vy[a];  // of the node; both as its first end sees them
+      const T nx = pair->nx, ny = pair->ny, along = nx * wx + ny * wy, turning = nx * ux + ny * uy;
+      // Where the node will be nearest after the drift.
+      const T fx = std::fma(s.step, ux, ex), fy = std::fma(s.step, uy, ey);
+      const T qx = std::fma(s.step, wx, now[p].x - now[a].x);
+      const T qy = std::fma(s.step, wy, now[p].y - now[a].y);
+      const T later = std::min(
+          std::max((qx * fx + qy * fy) / std::max(fx * fx + fy * fy, T(1e-12)), T(0)), T(1));
       const T second = pair->share, first = T(1) - second;
-      const T separation = pair->nx * (vx[p] - first * vx[a] - second * vx[b]) +
-                           pair->ny * (vy[p] - first * vy[a] - second * vy[b]);
-      const T least = least_separation(pair->room, separation, s.inverse_step);
-      if (!(separation < least)) continue;
-      const T impulse = (least - separation) / (T(1) + first * first + second * second);
-      const T jx = impulse * pair->nx, jy = impulse * pair->ny;
+      const T room_later = pair->room + (second - later) * (nx * ex + ny * ey);
+      const T separation = along - second * turning, separation_later = along - later * turning;
+      const T mobility = T(1) + first * first + second * second;
+      const T mobility_later = T(1) + first * (T(1) - later) + second * later;
+      const T missing = least_separation(pair->room, separation, s.inverse_step) - separation;
+      const T missing_later =
+          least_separation(room_later, separation_later, s.inverse_step) - separation_later;
+      // No more than turns the approach round, which leaves the energy as it is.
+      const T impulse = std::max(missing / mobility, std::min(missing_later / mobility_later,
+                                                              T(-2) * separation / mobility));
+      if (!(impulse > T(0))) continue;
+      const T jx = impulse * nx, jy = impulse * ny;
       push(p, jx, jy);
       push(a, -first * jx, -first * jy);
       push(b, -second * jx, -second * jy);

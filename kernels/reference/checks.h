@@ -16,7 +16,7 @@ enum class Fault { none, inverted, collapsed, speed, non_finite };
 /// absorbing, so a look every few steps misses neither.
 struct Limits {
   double area_ratio = 0.05;  ///< S/S0 below this: collapsed
-  double travel = 0.5;       ///< |v| h above this: speed; d
+  double travel = 0.8;       ///< |v| h above this: speed; d
   double speed = 4.0;        ///< |v| above this: speed; d per time unit
 };
 

@@ -52,10 +52,10 @@ void symplectic_euler(const State& s, const Workspace& w, const Step& step, Forc
 }
 
 /// Second order, one evaluation: half a drift, the forces at the midpoint with the velocity
-/// extrapolated by the previous step's acceleration, the whole kick and impulses, half a drift; what
-/// is solid looks a whole step ahead, to the next midpoint. The acceleration counts the impulses:
-/// else dampers would take a node that ground or friction hold for a moving one, an error of first
-/// order that never changes its sign.
+/// extrapolated by the previous step's acceleration, the whole kick and impulses, half a drift;
+/// what is solid looks a whole step ahead, to the next midpoint. The acceleration counts the
+/// impulses: else dampers would take a node that ground or friction hold for a moving one, an error
+/// of first order that never changes its sign.
 template <class Force, class Keep>
 void drift_kick_drift(const State& s, const Workspace& w, const Step& step, Force&& force,
                       Keep&& keep) {
@@ -82,8 +82,8 @@ void drift_kick_drift(const State& s, const Workspace& w, const Step& step, Forc
   }
 }
 
-/// Second order, two evaluations: half a kick, impulses, a drift, half a kick with the forces at the
-/// end, for the velocity predicted there. Impulses come once per step, before the drift.
+/// Second order, two evaluations: half a kick, impulses, a drift, half a kick with the forces at
+/// the end, for the velocity predicted there. Impulses come once per step, before the drift.
 template <class Force, class Keep>
 void velocity_verlet(const State& s, const Workspace& w, const Step& step, Force&& force,
                      Keep&& keep) {

@@ -30,8 +30,10 @@ inline double least_separation(double room, double separation, double h) {
 }
 
 /// Before a drift by h from x, y: stops nodes at the ground, then pairs, one after the other, in at
-/// most four sweeps, by impulses along the gap that the edge's ends share barycentrically; what such
-/// an impulse pushes into the ground is stopped there. All nodes have one mass, so it does not count.
+/// most four sweeps, by impulses along the gap that the edge's ends share barycentrically; what
+/// such an impulse pushes into the ground is stopped there. A pair must keep its least gap where it
+/// is nearest now and, along the same direction, where it will be after the drift. All nodes have
+/// one mass, so it does not count.
 inline void keep_apart(const Solid& solid, double h, std::span<const double> x,
                        std::span<const double> y, std::span<double> vx, std::span<double> vy) {
   const auto meet = [&](std::size_t i) {
@@ -58,13 +60,29 @@ inline void keep_apart(const Solid& solid, double h, std::span<const double> x,
     bool acted = false;
     for (const auto& [pair, point, room] : approaches) {
       const auto [a, b, p] = places<3>({pair->edge[0], pair->edge[1], pair->node});
-      const double second = point.place, first = 1 - second;
       const double nx = point.dx / point.gap, ny = point.dy / point.gap;
-      const double separation = nx * (vx[p] - first * vx[a] - second * vx[b]) +
-                                ny * (vy[p] - first * vy[a] - second * vy[b]);
-      const double least = least_separation(room, separation, h);
-      if (!(separation < least)) continue;
-      const double impulse = (least - separation) / (1 + first * first + second * second);
+      const double second = point.place, first = 1 - second;
+      const auto separation = [&](double place) {
+        return nx * (vx[p] - (1 - place) * vx[a] - place * vx[b]) +
+               ny * (vy[p] - (1 - place) * vy[a] - place * vy[b]);
+      };
+      const auto missing = [&](double place, double room_there) {
+        const double v = separation(place);
+        return (least_separation(room_there, v, h) - v) /
+               (1 + first * (1 - place) + second * place);
+      };
+      // Where the node will be nearest after the drift: it may slide along while the edge turns.
+      const double ex = x[b] - x[a], ey = y[b] - y[a];
+      const double fx = ex + h * (vx[b] - vx[a]), fy = ey + h * (vy[b] - vy[a]);
+      const double qx = x[p] - x[a] + h * (vx[p] - vx[a]), qy = y[p] - y[a] + h * (vy[p] - vy[a]);
+      const double squared = fx * fx + fy * fy;
+      const double later = squared > 0 ? std::clamp((qx * fx + qy * fy) / squared, 0.0, 1.0) : 0;
+      const double room_later = room + (second - later) * (nx * ex + ny * ey);
+      // No more than turns the approach round, which leaves the energy as it is.
+      const double most = -2 * separation(second) / (1 + first * first + second * second);
+      const double impulse =
+          std::max(missing(second, room), std::min(missing(later, room_later), most));
+      if (!(impulse > 0)) continue;
       const auto push = [&](std::size_t i, double share) {
         vx[i] += share * impulse * nx;
         vy[i] += share * impulse * ny;
