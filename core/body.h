@@ -48,7 +48,11 @@ struct BodyFault {
   std::string what;            ///< one line: field, index, value, what was expected
 };
 
-/// All faults of a body: sizes, finite values, periods > 0, indices, coincident nodes (closer than
+/// Shortest period of an oscillator, time units.
+inline constexpr double smallest_period = 1e-3;
+
+/// All faults of a body: sizes, finite values, nodes within 1e6 d of the origin in x and y, periods
+/// below smallest_period, indices, coincident nodes (closer than
 /// 1e-3 d), orientation (every triangle counter-clockwise, with an area), rest lengths and rest
 /// areas below 1e-3 where they are not those of the nodes, isolated nodes, edges with overlapping
 /// or more than two triangles, triangles around a node beside a closed fan, more than one

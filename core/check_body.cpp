@@ -13,6 +13,7 @@ namespace {
 
 constexpr double smallest_length = 1e-3;  ///< d
 constexpr double smallest_area = 1e-3;    ///< d^2
+constexpr double farthest = 1e6;          ///< d
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -124,10 +125,13 @@ class Checker {
       if (!std::isfinite(body_.x[i]) || !std::isfinite(body_.y[i])) {
         positions_good_ = false;
         fault(Status::bad_input, element("nodes", i), position(i), "finite numbers");
+      } else if (std::abs(body_.x[i]) > farthest || std::abs(body_.y[i]) > farthest) {
+        positions_good_ = false;
+        fault(Status::bad_input, element("nodes", i), position(i), "within 1e6 of the origin");
       }
-      if (!(std::isfinite(body_.period[i]) && body_.period[i] > 0)) {
+      if (!(std::isfinite(body_.period[i]) && body_.period[i] >= smallest_period)) {
         fault(Status::bad_input, element("period", i), text(body_.period[i]),
-              "a finite number > 0");
+              "a finite number >= " + text(smallest_period));
       }
       if (!std::isfinite(body_.phase[i])) {
         fault(Status::bad_input, element("phase", i), text(body_.phase[i]), "a finite number");
