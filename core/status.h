@@ -17,13 +17,12 @@ enum class Status : std::uint8_t {
   bad_geometry,     ///< coincident nodes, or a triangle without area or turned the wrong way
   bad_topology,     ///< isolated node, or more than one edge-connected component
   bad_development,  ///< development became infinite or not a number: there is no body
-  step_too_large,   ///< the step is beyond the method's stability limit for this body, a quarter of
-                   ///< its shortest period, or the length of the run
-  inverted,    ///< a triangle turned inside out
-  crossed,     ///< the outline crossed itself
-  collapsed,   ///< a triangle was squeezed below what the step resolves
-  speed,       ///< a node moved faster than the step resolves
-  non_finite,  ///< a state became infinite or not a number
+  step_too_large,   ///< the step is beyond what the method, a period or the run's length allows
+  inverted,         ///< a triangle turned inside out
+  crossed,          ///< the outline crossed itself
+  collapsed,        ///< a triangle was squeezed below what the step resolves
+  speed,            ///< a node moved faster than the step resolves
+  non_finite,       ///< a state became infinite or not a number
 };
 
 inline constexpr int status_count = 14;
