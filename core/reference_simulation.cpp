@@ -6,6 +6,7 @@
 
 #include "core/automatic_step.h"
 #include "core/reference_system_detail.h"
+#include "core/step_refusal.h"
 
 namespace metamorph::core {
 
@@ -48,6 +49,10 @@ int severity(ref::Fault fault) {
   return 4;
 }
 
+double step_of(const ReferenceOptions& options, const Scene& scene) {
+  return options.step > 0 ? options.step : scene.step;
+}
+
 /// The steps of one evaluation: counts them, looks at the state, and remembers a failure.
 class Evaluation {
  public:
@@ -55,7 +60,7 @@ class Evaluation {
       : system_(body, scene),
         scene_(scene),
         options_(options),
-        h_(options.step > 0 ? options.step : scene.step),
+        h_(step_of(options, scene)),
         settle_h_(scene.settle_step * (h_ / scene.step)),
         outcome_(describe(body)) {
     outcome_.step = h_;
@@ -156,8 +161,20 @@ Outcome simulate_reference(const Body& body, const Scene& scene, const Reference
     refused.status = status_of(faults);
     return refused;
   }
-  return Evaluation(body, with_chosen_steps(body, scene, fast_method(options.method)), options)
-      .run();
+  const Scene chosen = with_chosen_steps(body, scene, fast_method(options.method));
+  Scene taken = chosen;
+  taken.step = step_of(options, chosen);
+  taken.settle_step = chosen.settle_step * (taken.step / chosen.step);
+  if (const auto refusal = refused_step(body, taken)) {
+    refused.status = refusal->status;
+    refused.step = taken.step;
+    if (scene.ground) refused.settle_step = taken.settle_step;
+    refused.failed_value = refusal->largest;
+    refused.failed_index = refusal->node;
+    refused.failed_step = 0;
+    return refused;
+  }
+  return Evaluation(body, chosen, options).run();
 }
 
 }  // namespace metamorph::core

@@ -17,7 +17,7 @@ enum class Status : std::uint8_t {
   bad_geometry,     ///< coincident nodes, or a triangle without area or turned the wrong way
   bad_topology,     ///< isolated node, or more than one edge-connected component
   bad_development,  ///< development became infinite or not a number: there is no body
-  step_too_large,   ///< the step is beyond the method's stability limit for this body
+  step_too_large,   ///< the step is beyond what the method, a period or the run's length allows
   inverted,         ///< a triangle turned inside out
   crossed,          ///< the outline crossed itself
   collapsed,        ///< a triangle was squeezed below what the step resolves

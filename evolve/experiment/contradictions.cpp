@@ -65,6 +65,10 @@ std::vector<Contradiction> contradictions(const Experiment& e) {
       at_most(found, path + ".settle_quiet_steps", scene.settle_quiet_steps,
               path + ".settle_max_steps", scene.settle_max_steps);
     }
+    at_most(found, path + ".step", scene.step, "development.period_min / 4",
+            e.development.period_min / 4);
+    at_most(found, path + ".step", scene.step, path + ".run_steps * 0.2",
+            scene.run_steps * core::paper_step);
     bool used = false;
     for (const Trial& trial : e.trials) used |= trial.scene == scene.name;
     if (!used) found.push_back({path, "a scene that a trial names"});

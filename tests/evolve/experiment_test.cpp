@@ -170,6 +170,7 @@ RC_GTEST_PROP(Experiment, AnyNumbersSurviveTheRoundTrip, ()) {
     }
   }
   // Put right what random numbers contradict.
+  e.development.period_min = std::max(e.development.period_min, 1.0);
   e.development.period_max = std::max(e.development.period_min, e.development.period_max);
   e.search.archive_threshold = std::max(e.search.archive_floor, e.search.archive_threshold);
   e.neat.compatibility_threshold =
@@ -302,6 +303,10 @@ TEST(Experiment, EveryFaultGetsItsLine) {
        "needs two trials (larva, adult), there are 1"},
       {g + "[development]\nperiod_min = 200\n",
        "x.toml:11: development.period_min = 200: expected at most development.period_max = 120"},
+      {g + "[development]\nperiod_min = 0.6\n",
+       "x.toml: scenes.water.step = 0.2: expected at most development.period_min / 4 = 0.15"},
+      {g + "[scenes.water]\nstep = 1\nrun_steps = 4\nramp_steps = 1\n",
+       "x.toml:11: scenes.water.step = 1: expected at most scenes.water.run_steps * 0.2 = 0.8"},
       {g + "[neat]\nspecies_max = 3\n",
        "x.toml: neat.species_min = 5: expected at most neat.species_max = 3"},
       {g + "[neat]\nmutate_weights = 0\n",
