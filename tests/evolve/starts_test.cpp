@@ -355,6 +355,24 @@ TEST(RunWithStarts, ReportsEveryStartAsAnEvaluation) {
   EXPECT_EQ(counter.evaluations, 2 * 12 * (1 + 3));
 }
 
+// Progressive search runs no adults at first, but the best one's for the record.
+TEST(RunWithStarts, AnAdultRunForTheRecordHasTheStartsOfItsGeneration) {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "run";
+  const Experiment e = tiny_with_starts(SearchKind::progressive, 9, true);
+  run_whole(path, e);
+  const RunReader reader(path);
+  int moving = 0;
+  for (const int generation : {1, 2}) {
+    const Champion champion = reader.champion(generation);
+    EvaluationSeconds seconds;
+    const Evaluated again = Evaluator(e, 1).evaluate_fully(champion.genome, generation, seconds);
+    EXPECT_EQ(again.evaluation.trials[1].distance, champion.distances[1]);
+    moving += champion.distances[1] > 0;
+  }
+  EXPECT_GT(moving, 0);
+}
+
 TEST(RunWithStarts, AnAuditReplaysEveryChampionFromTheStartsOfItsGeneration) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "run";
