@@ -25,6 +25,9 @@ void check_trials(const Experiment& e, std::vector<Contradiction>& found) {
       found.push_back({path + ".name", "a name that no other trial has"});
     }
     at_most(found, path + ".stage", trial.stage, "development.steps", e.development.steps);
+    if ((trial.starts > 1 || trial.starts_renew) && trial.start_displacement == 0) {
+      found.push_back({path + ".start_displacement", "more than 0: all starts would be one"});
+    }
   }
   if (e.search.kind != SearchKind::progressive) return;
   if (e.trials.size() != 2) {
