@@ -95,13 +95,17 @@ class Evaluation {
     const std::int64_t wanted = steps_in(scene_.settle_quiet_steps, settle_h_);
     const std::int64_t limit = steps_in(scene_.settle_max_steps, settle_h_);
     system_.set_settling(true);
+    const double start = system_.mean_position()[0];
+    bool off = false;  // and away: it will not rest
     std::int64_t quiet = 0;
-    while (quiet < wanted && outcome_.steps < limit) {
+    while (quiet < wanted && outcome_.steps < limit && !off) {
       system_.step(ReferenceMethod::symplectic_euler, 0, settle_h_);
       const bool sound = count(outcome_.steps + 1, settle_h_);
       outcome_.settle_time = static_cast<double>(outcome_.steps) * settle_h_;
       if (!sound) return false;
       quiet = system_.max_speed() < scene_.settle_speed ? quiet + 1 : 0;
+      off = outcome_.steps % check_interval == 0 &&
+            std::abs(system_.mean_position()[0] - start) > scene_.settle_range;
     }
     if (quiet < wanted) outcome_.status = Status::not_settled;
     system_.set_settling(false);

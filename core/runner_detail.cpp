@@ -83,8 +83,8 @@ void Runner<T>::step(std::uint64_t n) {
   extremes_.largest_speed2 = kernels::Lanes<T>(T(0));
   step_function<T>(terms)(view_, coefficients_, static_cast<kernels::Turn<T>>(n), extremes_);
   fastest2_ = extremes_.largest_speed2;
+  if (scene_->self_collision && stop()) fastest2_ = speeds2();
   extremes_.largest_speed2 = kernels::max(fastest2_, before);
-  if (scene_->self_collision) stop();
   std::swap(view_.now, view_.next);
 }
 
@@ -103,9 +103,10 @@ kernels::PairCounts Runner<T>::meet(T stiffness, T* fx, T* fy) {
                              collisions_.approaches());
 }
 
-/// Between kick and drift, which the step has done in one: stops what would come too near.
+/// Between kick and drift, which the step has done in one: stops what would come too near. Returns
+/// whether there was anything.
 template <class T>
-void Runner<T>::stop() {
+bool Runner<T>::stop() {
   using Pack = kernels::Lanes<T>;
   const kernels::StopStep<T> stop_step{coefficients_.step, T(1) / coefficients_.step,
                                        coefficients_.extrapolate / coefficients_.step,
@@ -122,16 +123,28 @@ void Runner<T>::stop() {
     if (!held || !expected) {
       near_ = meet(T(0), state_.extra_fx.data(), state_.extra_fy.data()).near;
     } else if (again) {
-      return;
+      return true;
     }
     const kernels::Approach<T>* const begin = collisions_.approaches();
     const kernels::Stopped<T> stopped = kernels::stop_approaches(
         begin, begin + near_, stop_step, view_.now, view_.next, view_.vx, view_.vy);
-    if (!stopped.any) return;
+    if (!stopped.any) return again;
     speed2 = Pack(stopped.fastest2);
     moved2 = Pack(stopped.change * stopped.change);
     again = true;
   }
+}
+
+/// The largest squared speeds now, each lane for itself.
+template <class T>
+kernels::Lanes<T> Runner<T>::speeds2() const {
+  using Pack = kernels::Lanes<T>;
+  Pack largest2(T(0));
+  for (int base = 0; base < view_.groups * Pack::width; base += Pack::width) {
+    const Pack vx = Pack::load(view_.vx + base), vy = Pack::load(view_.vy + base);
+    largest2 = max(fma(vx, vx, vy * vy), largest2);
+  }
+  return largest2;
 }
 
 template <class T>
@@ -141,14 +154,18 @@ bool Runner<T>::settle(Outcome& outcome) {
   const std::int64_t quiet_needed = steps_of(scene.settle_quiet_steps, step_);
   const std::int64_t most = steps_of(scene.settle_max_steps, step_);
   const kernels::Lanes<T> quiet2(static_cast<T>(scene.settle_speed * scene.settle_speed));
+  const double start_x = mean_position().x;
+  bool off = false;  // and away: it will not rest
   std::int64_t quiet = 0, n = 0;
-  while (n < most && quiet < quiet_needed) {
+  while (n < most && quiet < quiet_needed && !off) {
     step(static_cast<std::uint64_t>(n));
     quiet = all(fastest2_ < quiet2) ? quiet + 1 : 0;
     ++n;
     outcome.steps = n;
     outcome.settle_time = static_cast<double>(n) * step_;
-    if (n % check_interval == 0 && !sound(outcome, n % outline_interval == 0)) return false;
+    if (n % check_interval != 0) continue;
+    if (!sound(outcome, n % outline_interval == 0)) return false;
+    off = std::abs(mean_position().x - start_x) > scene.settle_range;
   }
   end_settling();
   if (quiet < quiet_needed) outcome.status = Status::not_settled;

@@ -33,7 +33,8 @@ class Runner {
   void step(std::uint64_t n);
   void expect_speed(T speed);
   kernels::PairCounts meet(T stiffness, T* fx, T* fy);
-  void stop();
+  bool stop();
+  kernels::Lanes<T> speeds2() const;
   bool sound(Outcome& outcome, bool look_at_outline);
   void prepare_looks();
   bool solid(Outcome& outcome);

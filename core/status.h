@@ -10,7 +10,8 @@ namespace metamorph::core {
 /// step, index and value that showed it (see Outcome), and distance 0; it disturbs nobody.
 enum class Status : std::uint8_t {
   ok,
-  not_settled,      ///< ran, but was still moving when settling timed out; its distance counts
+  not_settled,      ///< ran, but was still moving when settling timed out, or had gone too
+                    ///< far by then; its distance counts
   empty,            ///< no cell alive at the stage end; normal, distance 0
   no_body,          ///< fewer than 8 nodes after extraction; normal, distance 0
   bad_input,        ///< a parameter is not finite or has the wrong sign

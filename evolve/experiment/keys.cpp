@@ -185,7 +185,8 @@ Section scene_section(NamedScene& named) {
            {"settle_drag", &s.settle_drag, 0, 1e6, "drag per node while settling"},
            {"settle_speed", &s.settle_speed, 0, 1e6, "quiet below this, d per time unit"},
            {"settle_quiet_steps", &s.settle_quiet_steps, 0, no_limit, "steps that must be quiet"},
-           {"settle_max_steps", &s.settle_max_steps, 0, no_limit, "then start anyway"}}};
+           {"settle_max_steps", &s.settle_max_steps, 0, no_limit, "then start anyway"},
+           {"settle_range", &s.settle_range, 0, no_limit, "what goes farther starts anyway, d"}}};
 }
 
 std::vector<Section> all_sections(Experiment& experiment) {
