@@ -16,7 +16,7 @@ esac
 prepare_bench metamorph_accuracy
 
 mkdir -p "$tables" "$charts"
-for study in predictability ablation settling stability work-precision-water \
+for study in predictability solidity ablation settling stability work-precision-water \
   work-precision-land-third work-precision-land work-precision-slope; do
   start=$SECONDS
   "$folder/metamorph_accuracy" "$study" "$random" bench/genomes/*.json \

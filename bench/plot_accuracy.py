@@ -3,7 +3,7 @@
 usage: plot_accuracy.py TABLES CHARTS
 
 TABLES holds what bench/accuracy.sh measured: work-precision-*.csv, stability.csv, ablation.csv,
-settling.csv, predictability.csv. Charts and accuracy-tables.md are written to CHARTS.
+settling.csv, solidity.csv, predictability.csv. Charts and accuracy-tables.md are written to CHARTS.
 """
 
 import csv
@@ -207,7 +207,8 @@ def one_body(rows, charts):
 
 def stability(rows, charts):
     label = {"damping": "damping c", "pressure": "pressure coefficient", "stiffness": "stiffness k",
-             "drag speed": "drag coefficient x speed", "amplitude": "amplitude of actuation"}
+             "drag speed": "drag coefficient x speed", "amplitude": "amplitude of actuation",
+             "contact stiffness": "contact stiffness k_s, on land"}
     maps = distinct(rows, "map")
     figure, axes = plt.subplots(1, len(maps), figsize=(2.9 * len(maps), 2.8))
     cells = []
@@ -230,7 +231,8 @@ def stability(rows, charts):
             cells.append([name, method + (" (no limit in theory: the step)" if free else ""),
                           f"{value.min():.3f}", f"{np.median(value):.3f}", f"{value.max():.3f}"])
         axis.set(xlabel=label[name], ylabel="largest stable step")
-        axis.set(yscale="log", xscale="log" if name in ("stiffness", "drag speed") else "linear")
+        axis.set(yscale="log", xscale="log" if name in ("stiffness", "drag speed", "contact stiffness")
+                 else "linear")
     axes[0].legend(fontsize=7, frameon=False)
     bodies = ", ".join(sorted({row["cells"] for row in rows}, key=int))
     figure.suptitle(f"Measured by bisection (marks) and theory (lines); bodies of {bodies} cells",
@@ -345,6 +347,21 @@ def predictability(rows, charts):
         ["scene", "bodies", "time", "median", "90 %", "worst"], cells) + "\n"
 
 
+def solidity(rows):
+    cells = []
+    for scene in distinct(rows, "scene"):
+        for evolved, name in (("1", "evolved"), ("0", "random")):
+            here = [r for r in rows if r["scene"] == scene and r["evolved"] == evolved]
+            cells.append([scene, name, str(len(here)), f"{column(here, 'frames').sum():.0f}",
+                          f"{column(here, 'crossed').sum():.0f}",
+                          f"{-column(here, 'lowest').min():.1e}",
+                          str(sum(row["status"] not in RAN for row in here))])
+    return ("### Frames in which an outline crosses itself\n\nEvery step of a run is a frame; "
+            "crossings are decided exactly.\n\n"
+            + table(["scene", "bodies", "number", "frames", "crossed", "deepest below the ground",
+                     "failed"], cells) + "\n")
+
+
 def main(tables, charts):
     charts.mkdir(parents=True, exist_ok=True)
     rows = [row for scene in ("water", "land-third", "land", "slope")
@@ -358,6 +375,7 @@ def main(tables, charts):
     text += stability(read(tables / "stability.csv"), charts)
     text += ablation(read(tables / "ablation.csv"))
     text += settling(read(tables / "settling.csv"), charts)
+    text += solidity(read(tables / "solidity.csv"))
     text += predictability(read(tables / "predictability.csv"), charts)
     (charts / "accuracy-tables.md").write_text(text.rstrip() + "\n")
 

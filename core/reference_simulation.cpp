@@ -14,7 +14,8 @@ namespace {
 
 namespace ref = kernels::reference;
 
-constexpr std::int64_t check_interval = 8;  // steps
+constexpr std::int64_t check_interval = 8;     // steps
+constexpr std::int64_t outline_interval = 96;  // steps
 
 Status status_of(ref::Fault fault) {
   switch (fault) {
@@ -74,7 +75,7 @@ class Evaluation {
     const std::int64_t steps = steps_in(scene_.run_steps, h_);
     for (std::int64_t n = 0; n < steps; ++n) {
       system_.step(options_.method, static_cast<double>(n) * h_, h_);
-      if (!count(n + 1, h_) || (n + 1 == steps && !sound())) return outcome_;
+      if (!count(n + 1, h_) || (n + 1 == steps && !(sound() && solid()))) return outcome_;
       if ((n + 1) % options_.observe_every == 0) observe(n + 1);
     }
     const std::array<double, 2> end = system_.mean_position();
@@ -120,7 +121,7 @@ class Evaluation {
     outcome_.min_area_ratio = std::min(outcome_.min_area_ratio, health.min_area_ratio);
     outcome_.max_speed = std::max(outcome_.max_speed, health.max_speed);
     if (severity(health.fault) >= severity(worst_.fault)) worst_ = health;
-    return n % check_interval != 0 || sound();
+    return n % check_interval != 0 || (sound() && (n % outline_interval != 0 || solid()));
   }
 
   bool sound() {
@@ -129,6 +130,23 @@ class Evaluation {
     outcome_.failed_step = outcome_.steps;
     outcome_.failed_index = worst_.index;
     outcome_.failed_value = worst_.value;
+    return false;
+  }
+
+  /// Whether no triangle without pressure has turned over and the outline does not cross itself.
+  bool solid() {
+    if (const auto turned = system_.turned_without_pressure()) {
+      outcome_.status = Status::inverted;
+      outcome_.failed_index = turned->triangle;
+      outcome_.failed_value = turned->area_ratio;
+    } else if (const auto crossed = scene_.self_collision ? system_.crossed() : std::nullopt) {
+      outcome_.status = Status::crossed;
+      outcome_.failed_index = crossed->spring;
+      outcome_.failed_value = crossed->node;
+    } else {
+      return true;
+    }
+    outcome_.failed_step = outcome_.steps;
     return false;
   }
 

@@ -116,6 +116,15 @@ ref::Health ReferenceSystem::examine(double h) const {
   return ref::examine(pressure_cells(), nodes(), h, {});
 }
 
+std::optional<ReferenceSystem::TurnedTriangle> ReferenceSystem::turned_without_pressure() const {
+  for (std::size_t t = 0; t < body_.triangles.size(); ++t) {
+    if (body_.rest_area[t] >= scene_.min_pressure_area) continue;
+    const double area = ref::signed_area(body_.triangles[t], x, y);
+    if (area <= 0) return TurnedTriangle{static_cast<Index>(t), area / body_.rest_area[t]};
+  }
+  return std::nullopt;
+}
+
 std::array<double, 2> ReferenceSystem::mean_position() const {
   std::array<double, 2> mean{};
   for (std::size_t i = 0; i < x.size(); ++i) {

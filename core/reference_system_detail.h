@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/body.h"
+#include "core/crossed_edge.h"
 #include "core/reference_simulation.h"
 #include "core/scene.h"
 #include "kernels/reference/checks.h"
@@ -42,6 +44,17 @@ class ReferenceSystem {
   double kinetic_energy() const;
 
   kernels::reference::Health examine(double h) const;
+
+  /// Where the outline crosses itself, if it does. Precondition: all places are finite.
+  std::optional<CrossedEdge> crossed() const { return crossed_edge(body_, x, y); }
+
+  /// A triangle without pressure that has turned over, if there is one.
+  struct TurnedTriangle {
+    Index triangle;
+    double area_ratio;
+  };
+  std::optional<TurnedTriangle> turned_without_pressure() const;
+
   kernels::reference::State state() { return {x, y, vx, vy, ax, ay}; }
   kernels::reference::Nodes nodes() const { return {x, y, vx, vy}; }
   std::span<const kernels::reference::CollisionPair> collision_pairs() const { return pairs_; }

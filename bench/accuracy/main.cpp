@@ -26,13 +26,14 @@ constexpr Entry studies[] = {
     {"stability", metamorph::bench::stability_map},
     {"ablation", metamorph::bench::ablation},
     {"settling", metamorph::bench::settling},
+    {"solidity", metamorph::bench::solidity},
     {"predictability", metamorph::bench::predictability}};
 
 int usage() {
   std::cerr
       << "usage: metamorph_accuracy STUDY RANDOM GENOME...\n"
          "  STUDY    work-precision-water, -land-third, -land or -slope, stability, ablation,\n"
-         "           settling or predictability\n"
+         "           settling, solidity or predictability\n"
          "  RANDOM   number of bodies of random genomes\n"
          "  GENOME   file of an evolved genome; its larva and adult are measured too\n";
   return 2;

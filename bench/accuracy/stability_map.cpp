@@ -150,6 +150,12 @@ std::vector<Point> nonlinear_points() {
     scene.amplitude = amplitude;
     points.push_back({"amplitude", amplitude, scene});
   }
+  // With everything that is solid: a walk on land, and how hard the outline repels itself.
+  for (const double stiffness : {1.0, 2.0, 4.0, 8.0, 16.0, 32.0}) {
+    core::Scene scene = core::land_scene();
+    scene.collision_stiffness = stiffness;
+    points.push_back({"contact stiffness", stiffness, scene});
+  }
   return points;
 }
 
@@ -163,7 +169,7 @@ std::string row(const Specimen& specimen, const Point& point, const Named& named
     measured = bisect((limited ? 0.02 * theory : 0.02), 2 * rest, [&](double h) {
       return survives(body, point.scene, named, h, point.speed, 40);
     });
-  } else if (point.map == "amplitude") {
+  } else if (point.map == "amplitude" || point.map == "contact stiffness") {
     measured = bisect(0.1 * rest, 2 * rest,
                       [&](double h) { return survives(body, point.scene, named, h, 0, 160); });
   } else {

@@ -30,6 +30,9 @@ void ablation(std::span<const Specimen> specimens, std::ostream& out);
 /// cost, the rest it reaches and what that decides.
 void settling(std::span<const Specimen> specimens, std::ostream& out);
 
+/// Every frame of a run: whether the outline crosses itself, how deep the ground is entered.
+void solidity(std::span<const Specimen> specimens, std::ostream& out);
+
 /// Growth of a small perturbation of the state at rest over the time of a run.
 void predictability(std::span<const Specimen> specimens, std::ostream& out);
 

@@ -55,15 +55,15 @@ std::vector<Ladder> ladders(const core::Scene& scene) {
             {"ROS2", {0.8, 0.4, 0.2}, 8},
             {"XPBD", {0.4, 0.2, 0.1}, 4}};
   }
-  return {{"DKD float32", {0.15, 0.1, 0.05, 0.025, 0.0125}},
-          {"DKD float64", {0.15, 0.1, 0.05, 0.025, 0.0125}},
-          {"SE float32", {0.2, 0.1, 0.05, 0.025, 0.0125}},
-          {"SE float64", {0.2, 0.1, 0.05, 0.025, 0.0125}},
-          {"velocity Verlet", {0.2, 0.1}, 8},
+  return {{"DKD float32", {0.2, 0.15, 0.1, 0.075, 0.0375, 0.01875}},
+          {"DKD float64", {0.2, 0.15, 0.1, 0.075, 0.0375, 0.01875}},
+          {"SE float32", {0.2, 0.15, 0.075, 0.0375, 0.01875}},
+          {"SE float64", {0.2, 0.15, 0.075, 0.0375, 0.01875}},
+          {"velocity Verlet", {0.3, 0.15}, 8},
           {"RK4", {0.4, 0.2}, 8},
           {"linearly implicit Euler", {0.4, 0.2}, 8},
           {"ROS2", {0.4, 0.2}, 8},
-          {"XPBD", {0.1, 0.05}, 8}};
+          {"XPBD", {0.15, 0.075}, 8}};
 }
 
 std::string rows_of(std::span<const Specimen> specimens, std::size_t index,

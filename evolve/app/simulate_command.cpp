@@ -226,7 +226,7 @@ void add_simulate_command(CLI::App& app) {
           "Step of the integrator, in time units; auto: chosen for each body from its stiffness, "
           "also while it settles")
       ->check(number_from(1e-6, 10, "auto"))
-      ->option_text("TIME|auto [0.2 in water, 0.1 on land]");
+      ->option_text("TIME|auto [0.2 in water, 0.15 on land]");
   add_locomotion_options(*command, options->locomotion);
   command->add_option("--threads", options->locomotion.threads, "Threads; 0 for all there are")
       ->check(integer_from(0, 4096))
