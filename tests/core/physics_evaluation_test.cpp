@@ -67,19 +67,22 @@ TEST_P(Evaluation, WithoutSurroundingsABodyCannotMoveItself) {
   EXPECT_GT(active, 0.01);
 }
 
-TEST_P(Evaluation, ARestingBodyPressesItsWeightOnTheGround) {
+TEST_P(Evaluation, ABodyComesToRestOnTheGroundAndNeverSinksIntoIt) {
   core::Scene scene = lasting(core::land_scene(), 400);
   scene.amplitude = 0;
   for (const int nodes : {12, 40}) {  // flat ones: a disc would roll
-    const Film result = film(GetParam(), strip_body(nodes), scene, 4000);
+    const Film result = film(GetParam(), strip_body(nodes), scene, 20);
     EXPECT_EQ(result.outcome.status, core::Status::ok);
+    // Ground stops a drift where it reaches 0: rounding of the places and speeds of that step.
+    double deepest = 0;
+    for (const auto& picture : result.pictures) deepest = std::min(deepest, lowest(picture.y));
+    EXPECT_TRUE(within(deepest, 8 * GetParam().round_off));
     const auto& last = result.pictures.back();
-    double load = 0;
-    for (const double y : last.y) load += std::max(-y, 0.0) * scene.ground_stiffness;
-    const double weight = scene.gravity * static_cast<double>(last.y.size());
-    // The bouncing on the ground has faded: the contacts' damping rate is c_n/2.
-    EXPECT_TRUE(within(load / weight - 1, 1e-6 + 64 * GetParam().round_off));
-    EXPECT_GT(lowest(last.y), -0.2);
+    double resting = 0, fastest = 0;
+    for (const double y : last.y) resting += y < 8 * GetParam().round_off;
+    for (const double v : last.vy) fastest = std::max(fastest, std::fabs(v));
+    EXPECT_GE(resting, 2);
+    EXPECT_TRUE(within(fastest, 1e-7 + 64 * GetParam().round_off));
   }
 }
 
