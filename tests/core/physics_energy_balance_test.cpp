@@ -97,11 +97,12 @@ LandBalance land_balance(double h, double duration) {
   ReferenceSystem system(body, scene);
   const std::size_t n = body.x.size();
   std::vector<double> fx(n), fy(n);
-  const double start = system.potential_energy(0) + system.kinetic_energy();
+  constexpr double begin = 1;  // in the midst of the oscillation
+  const double start = system.potential_energy(begin) + system.kinetic_energy();
   double work = 0;
   LandBalance balance;
   for (long step = 0; step < std::lround(duration / h); ++step) {
-    const double t = static_cast<double>(step) * h;
+    const double t = begin + static_cast<double>(step) * h;
     work += h * power(system, body, scene, t);
     balance.turnover += h * std::fabs(power(system, body, scene, t));
     system.forces(system.nodes(), t, {fx, fy});
