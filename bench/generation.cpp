@@ -71,7 +71,7 @@ void generation(benchmark::State& state, const std::string& larva, const std::st
   forget_peak();
   for (auto _ : state) {
     evolve::Evaluator evaluator(setting, threads);
-    individuals = evaluator.evaluate(start.genomes, every_trial, seconds);
+    individuals = evaluator.evaluate(start.genomes, every_trial, 0, seconds);
     work += evaluator.work();
     std::vector<evolve::Evaluation> evaluations;
     for (const auto& individual : individuals) evaluations.push_back(individual.evaluation);

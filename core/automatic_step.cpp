@@ -23,7 +23,7 @@ double chosen_step(const Body& body, const Scene& scene, Method method, bool set
     step = std::min(step, shortest / steps_per_period);
   }
   const double duration = (settling ? scene.settle_max_steps : scene.run_steps) * paper_step;
-  return duration > 0 ? duration / std::ceil(duration / step) : step;
+  return duration > 0 ? duration / std::max(1.0, std::ceil(duration / step)) : step;
 }
 
 }  // namespace

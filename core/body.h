@@ -48,14 +48,18 @@ struct BodyFault {
   std::string what;            ///< one line: field, index, value, what was expected
 };
 
-/// All faults of a body: sizes, finite values, periods > 0, indices, coincident nodes (closer than
-/// 1e-3 d), orientation (every triangle counter-clockwise, with an area), rest lengths and rest
-/// areas below 1e-3 where they are not those of the nodes, isolated nodes, edges with overlapping
-/// or more than two triangles, triangles around a node beside a closed fan, more than one
-/// edge-connected component, springs other than the edges of the triangles, an outline that crosses
-/// or touches itself, parts that overlap. Empty if the body is sound. Where sizes or indices are
-/// wrong, what depends on them is not looked at, nor overlap where a triangle or an edge is faulty.
-/// A pinch (a node that alone holds two parts of one component together) and a hole are no faults.
+/// Shortest period of an oscillator, time units.
+inline constexpr double smallest_period = 1e-3;
+
+/// All faults of a body: sizes, finite values, nodes within 1e6 d of the origin in x and y, periods
+/// below smallest_period, indices, coincident nodes (closer than 1e-3 d), orientation (every
+/// triangle counter-clockwise, with an area), rest lengths and rest areas below 1e-3 where they are
+/// not those of the nodes, isolated nodes, edges with overlapping or more than two triangles,
+/// triangles around a node beside a closed fan, more than one edge-connected component, springs
+/// other than the edges of the triangles, an outline that crosses or touches itself, parts that
+/// overlap. Empty if the body is sound. Where sizes or indices are wrong, what depends on them is
+/// not looked at, nor overlap where a triangle or an edge is faulty. A pinch (a node that alone
+/// holds two parts of one component together) and a hole are no faults.
 std::vector<BodyFault> check(const Body& body);
 
 /// The status that a list of faults amounts to: the most basic of them, ok if there is none.

@@ -5,12 +5,15 @@
 
 #include "core/body.h"
 #include "core/edge_uses.h"
+#include "core/outline_crossing.h"
+#include "core/parts.h"
 
 namespace metamorph::core {
 namespace {
 
 constexpr double smallest_length = 1e-3;  ///< d
 constexpr double smallest_area = 1e-3;    ///< d^2
+constexpr double farthest = 1e6;          ///< d
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -33,26 +36,17 @@ std::string element(const char* field, std::size_t index) {
   return std::string(field).append("[").append(std::to_string(index)).append("]");
 }
 
-/// Which of a number of things hang together.
-class Parts {
- public:
-  explicit Parts(std::size_t things) : part_(things) {
-    std::iota(part_.begin(), part_.end(), std::size_t{0});
+std::string text(const OutlineCrossing& crossing) {
+  switch (crossing.meeting) {
+    case Meeting::crossing:
+      return "cross";
+    case Meeting::touching:
+      return "node " + text(crossing.node) + " lies on both";
+    case Meeting::pinch:
+      break;
   }
-  void join(std::size_t a, std::size_t b) {
-    a = first(a);
-    b = first(b);
-    part_[std::max(a, b)] = std::min(a, b);
-  }
-  bool is_first(std::size_t thing) const { return part_[thing] == thing; }
-
- private:
-  std::size_t first(std::size_t thing) {
-    while (part_[thing] != thing) thing = part_[thing] = part_[part_[thing]];
-    return thing;
-  }
-  std::vector<std::size_t> part_;
-};
+  return "the parts that meet at node " + text(crossing.node) + " overlap";
+}
 
 /// Collects the faults of one body. Every check assumes what the checks before it made sure.
 class Checker {
@@ -67,11 +61,12 @@ class Checker {
     check_values();
     if (!indices_good) return std::move(faults_);
     check_springs();
-    if (check_mesh()) {
+    bool mesh_good = check_mesh();
+    if (mesh_good) {
       check_parts();
-      check_fans();
+      mesh_good = check_fans();
     }
-    if (positions_good_) check_geometry();
+    if (positions_good_ && check_geometry() && mesh_good) check_overlap();
     return std::move(faults_);
   }
 
@@ -130,10 +125,13 @@ class Checker {
       if (!std::isfinite(body_.x[i]) || !std::isfinite(body_.y[i])) {
         positions_good_ = false;
         fault(Status::bad_input, element("nodes", i), position(i), "finite numbers");
+      } else if (std::abs(body_.x[i]) > farthest || std::abs(body_.y[i]) > farthest) {
+        positions_good_ = false;
+        fault(Status::bad_input, element("nodes", i), position(i), "within 1e6 of the origin");
       }
-      if (!(std::isfinite(body_.period[i]) && body_.period[i] > 0)) {
+      if (!(std::isfinite(body_.period[i]) && body_.period[i] >= smallest_period)) {
         fault(Status::bad_input, element("period", i), text(body_.period[i]),
-              "a finite number > 0");
+              "a finite number >= " + text(smallest_period));
       }
       if (!std::isfinite(body_.phase[i])) {
         fault(Status::bad_input, element("phase", i), text(body_.phase[i]), "a finite number");
@@ -231,7 +229,8 @@ class Checker {
 
   /// Around a node lies one closed fan of triangles, or open ones: beside a closed fan there is no
   /// room for another.
-  void check_fans() {
+  bool check_fans() {
+    const std::size_t before = faults_.size();
     Parts corners(3 * body_.triangles.size());
     std::vector<int> fans(body_.x.size()), edges(body_.x.size());
     const auto corner = [&](const EdgeUse& use, Index node) {
@@ -263,10 +262,13 @@ class Checker {
               "one closed fan, or open ones only");
       }
     }
+    return faults_.size() == before;
   }
 
-  void check_geometry() {
+  /// True if every triangle is counter-clockwise.
+  bool check_geometry() {
     check_coincident();
+    bool turned_well = true;
     for (std::size_t i = 0; i < body_.springs.size(); ++i) {
       const double rest = body_.rest_length[i];
       if (rest < smallest_length && rest != length(body_, body_.springs[i])) {
@@ -277,6 +279,7 @@ class Checker {
     for (std::size_t t = 0; t < body_.triangles.size(); ++t) {
       const double area = signed_area(body_, body_.triangles[t]);
       if (!(area > 0)) {
+        turned_well = false;
         fault(Status::bad_geometry, element("triangles", t),
               text(body_.triangles[t]) + " with area " + text(area),
               "counter-clockwise nodes, area > 0");
@@ -289,6 +292,7 @@ class Checker {
               "at least " + text(smallest_area));
       }
     }
+    return turned_well;
   }
 
   void check_coincident() {
@@ -308,6 +312,53 @@ class Checker {
               "at least " + text(smallest_length) + " from node " + std::to_string(low));
       }
     }
+  }
+
+  /// The body covers no point of the plane twice. Its outline alone would tell; that triangles turn
+  /// more than once around a node is looked at to name the node.
+  void check_overlap() {
+    check_turns();
+    std::vector<std::array<Index, 2>> outline;
+    for (std::size_t u = 0, next = 0; u < uses_.size(); u = next) {
+      next = end_of_edge(uses_, u);
+      if (next - u > 1) continue;
+      const Index low = uses_[u].low, high = uses_[u].high;
+      outline.push_back(forward(uses_[u]) ? std::array{low, high} : std::array{high, low});
+    }
+    if (const auto found = first_crossing(body_.x, body_.y, outline)) {
+      const std::string first = text(outline[at(found->edges[0])]);
+      const std::string second = text(outline[at(found->edges[1])]);
+      fault(Status::bad_geometry, "outline edges " + first + " and " + second, text(*found),
+            "an outline that neither crosses nor touches itself");
+    } else if (const auto edge = first_overlap(body_.x, body_.y, outline)) {
+      fault(Status::bad_geometry, "outline edge " + text(outline[at(*edge)]),
+            "within or around another part of the body", "parts that do not overlap");
+    }
+  }
+
+  /// Triangles around a node turn around it as often as their corners pass the direction of +x.
+  void check_turns() {
+    std::vector<int> turns(body_.x.size(), 0);
+    for (const auto& triangle : body_.triangles) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t node = at(triangle[c]);
+        const bool passes =
+            !is_above(at(triangle[(c + 1) % 3]), node) && is_above(at(triangle[(c + 2) % 3]), node);
+        turns[node] += passes ? 1 : 0;
+      }
+    }
+    for (std::size_t n = 0; n < turns.size(); ++n) {
+      if (turns[n] > 1) {
+        fault(Status::bad_geometry, element("nodes", n), "its triangles lie on each other",
+              "triangles that turn around it once");
+      }
+    }
+  }
+
+  /// In the half of directions from +x (included) to -x (excluded).
+  bool is_above(std::size_t other, std::size_t node) const {
+    return body_.y[other] > body_.y[node] ||
+           (body_.y[other] == body_.y[node] && body_.x[other] > body_.x[node]);
   }
 
   const Body& body_;

@@ -21,6 +21,7 @@ void CollisionList<T>::reset(const Body& body, const Scene& scene, const BodyBat
                              std::size_t i) {
   const auto edges = batch.outline_edges(i);
   gap_ = static_cast<T>(scene.collision_gap);
+  spare_ = static_cast<T>(std::max(scene.collision_gap - scene.collision_least_gap, 0.0) / 2);
   nodes_ = batch.outline_nodes(i);
   edges_ = edges.size();
   const std::size_t outline_groups = (nodes_.size() + width - 1) / width;
@@ -227,15 +228,19 @@ kernels::CollisionPairs<T> CollisionList<T>::pairs(const kernels::NodeRecord<T>*
 template <class T>
 bool CollisionList<T>::held(const kernels::NodeRecord<T>* now, const kernels::NodeRecord<T>* next,
                             const T* weight) {
-  if (pair_watch_.holds(next, weight)) return true;
-  // A step may be longer than half a skin: then the skin is the wider for once.
-  const T way = largest(way_) * static_cast<T>(room);
-  const T limit = std::max(way, static_cast<T>(narrow_skin / 2));
-  if (limit > static_cast<T>(narrow_skin / 2) || !block_watch_.holds(now, weight))
-    renew_blocks(now);
+  if (pair_watch_.holds(next, weight, spare_)) return true;
+  // Anew from where the step began. One that is longer than half a skin has the wider a skin.
+  T longest2 = 0;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const T dx = next[n].x - now[n].x, dy = next[n].y - now[n].y;
+    longest2 = std::max(longest2, dx * dx + dy * dy);
+  }
+  const kernels::Lanes<T> way(std::sqrt(longest2) * static_cast<T>(room));
+  const T limit = std::max(way[0], static_cast<T>(narrow_skin / 2));
+  renew_blocks(now);
   renew_pairs(now, limit);
-  block_watch_.advance(way_);
-  pair_watch_.advance(way_);
+  block_watch_.advance(way);
+  pair_watch_.advance(way);
   return false;
 }
 

@@ -31,13 +31,14 @@ class CollisionList {
   /// Says that every node has moved for a time h, at no more than the speed whose square is in its
   /// lane of `speed2`. Must be told of all motion.
   void advance(kernels::Lanes<T> speed2, T h) {
-    way_ = kernels::Lanes<T>(h) * sqrt(speed2);
-    block_watch_.advance(way_);
-    pair_watch_.advance(way_);
+    const kernels::Lanes<T> way = kernels::Lanes<T>(h) * sqrt(speed2);
+    block_watch_.advance(way);
+    pair_watch_.advance(way);
   }
 
-  /// True if the list held at `now` and no other pair has come within the gap on the way to `next`,
-  /// which advance() was told of. Else it is renewed, at `now`, so that this is so.
+  /// True if no pair beyond the list has come within its least gap between `now`, where the list
+  /// holds, and `next`, where advance() was told that the nodes go. Else the list is renewed, at
+  /// `now`, so that this is so.
   bool held(const kernels::NodeRecord<T>* now, const kernels::NodeRecord<T>* next, const T* weight);
 
   /// Groups of nodes that are in a pair: those of the outline, or all.
@@ -75,6 +76,7 @@ class CollisionList {
   void append(std::uint32_t node, std::uint32_t first, std::uint32_t second, T threshold);
 
   T gap_ = 0;
+  T spare_ = 0;  ///< half of what the gap exceeds the least by: what each of a pair may use up
   int groups_ = 0;
   kernels::Lanes<T> way_{T(0)};   ///< of the last step, each lane for itself
   std::span<const Index> nodes_;  ///< of the outline's lanes

@@ -78,7 +78,7 @@ class Developer {
       finite = finite && std::isfinite(x_[at(i)]) && std::isfinite(y_[at(i)]);
     }
     if (!finite) {
-      status_ = Status::non_finite;
+      status_ = Status::bad_development;
       colony_.count = 0;
       x_.clear();
       y_.clear();
@@ -184,7 +184,24 @@ class Developer {
     }
     embryo.links = neighbourhood.links();
     embryo.faces = neighbourhood.faces();
-    return embryo;
+    return all_finite(embryo) ? embryo : without_cells(embryo);
+  }
+
+  static bool all_finite(const Embryo& embryo) {
+    const auto finite = [](const std::vector<double>& values) {
+      return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+    };
+    return finite(embryo.orientation) && finite(embryo.period) && finite(embryo.phase);
+  }
+
+  /// Its positions are numbers still, its network's outputs are not.
+  static Embryo without_cells(const Embryo& embryo) {
+    Embryo failed;
+    failed.step = embryo.step;
+    failed.status = Status::bad_development;
+    failed.created = embryo.created;
+    failed.died = embryo.died;
+    return failed;
   }
 
   DevelopmentRules rules_;

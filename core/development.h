@@ -31,7 +31,7 @@ struct DevelopmentRules {
 /// An embryo between two steps, neighbours renewed. Cells in order of age (id ascending).
 struct Embryo {
   int step = 0;
-  Status status = Status::ok;  ///< ok, empty, or non_finite (then without cells)
+  Status status = Status::ok;  ///< ok, empty or bad_development (both without cells)
   std::vector<int> id;         ///< counts births; founder 0
   std::vector<int> mother;     ///< id; founder -1
   std::vector<int> birth_step;

@@ -142,6 +142,7 @@ std::vector<std::array<Index, 3>> ordered(const std::vector<std::array<Index, 3>
 }  // namespace
 
 Extraction extract_body(const Embryo& embryo, int min_cells) {
+  if (embryo.status == Status::bad_development) return {embryo.status, {}};
   if (embryo.cell_count() == 0) return {Status::empty, {}};
   const Part part = largest_part(embryo);
   if (part.cells.empty() || static_cast<Index>(part.cells.size()) < min_cells) {

@@ -8,7 +8,7 @@ namespace metamorph::core {
 
 /// A body, or why there is none.
 struct Extraction {
-  Status status = Status::ok;  ///< ok, empty or no_body
+  Status status = Status::ok;  ///< ok, empty, no_body or bad_development
   Body body;                   ///< sound iff status is ok; rest lengths and areas set
 };
 

@@ -11,6 +11,7 @@
 #include "core/body_batch_detail.h"
 #include "core/runner_detail.h"
 #include "core/stability.h"
+#include "core/step_refusal.h"
 
 namespace metamorph::core {
 namespace {
@@ -35,6 +36,13 @@ Outcome before_running(LocomotionTask& task, Method method, Scene& own) {
   const Scene& scene = *task.scene;
   outcome.step = scene.step;
   if (scene.ground) outcome.settle_step = scene.settle_step;
+  if (const auto refusal = refused_step(body, scene)) {
+    outcome.status = refusal->status;
+    outcome.failed_value = refusal->largest;
+    outcome.failed_index = refusal->node;
+    outcome.failed_step = 0;
+    return outcome;
+  }
   const StepFinding found = assess_steps(body, scene, method);
   outcome.near_step_limit = found.use == StepUse::close;
   if (found.use == StepUse::too_large) {

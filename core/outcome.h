@@ -30,8 +30,9 @@ struct Outcome {
 
   // Of a failure: where it showed.
   std::int64_t failed_step = -1;  ///< integrator step at which it was detected
-  int failed_index = -1;          ///< node or triangle, by status
-  double failed_value = 0;        ///< the offending speed or area ratio; the largest stable step
+  int failed_index = -1;          ///< node, triangle or, if crossed, spring, by status
+  double failed_value = 0;        ///< the offending speed or area ratio; the largest step
+                                  ///< allowed; if crossed, the node beyond the outline edge
 };
 
 /// An outcome with what the body alone decides: counts and spring lengths.

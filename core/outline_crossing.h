@@ -32,13 +32,13 @@ struct OutlineCrossing {
 };
 
 /// The lowest pair of edges (by the first, then the second) that have more in common than a node of
-/// both; where there is none, two edges at a pinch in whose directions the outline does not turn
-/// from out to in and back. Nothing if the outline neither crosses nor touches itself.
+/// both; where there is none, two edges that follow one another around a pinch and both begin or
+/// both end there. Nothing if the outline neither crosses nor touches itself.
 std::optional<OutlineCrossing> first_crossing(std::span<const double> x, std::span<const double> y,
                                               std::span<const std::array<Index, 2>> outline);
 
 /// The position of an outline edge on whose right lies another part of the body, or on whose left
-/// lie several. Precondition: first_crossing() finds nothing.
+/// lie several. Precondition: every edge has a length, and first_crossing() finds nothing.
 std::optional<Index> first_overlap(std::span<const double> x, std::span<const double> y,
                                    std::span<const std::array<Index, 2>> outline);
 

@@ -12,6 +12,7 @@ enum class Purpose : std::uint32_t {
   mutation = 4,
   species_choice = 5,
   nearby_start = 6,
+  trial_start = 7,
   test = 1000,
 };
 

@@ -6,6 +6,7 @@
 
 #include "core/automatic_step.h"
 #include "core/reference_system_detail.h"
+#include "core/step_refusal.h"
 
 namespace metamorph::core {
 
@@ -48,6 +49,10 @@ int severity(ref::Fault fault) {
   return 4;
 }
 
+double step_of(const ReferenceOptions& options, const Scene& scene) {
+  return options.step > 0 ? options.step : scene.step;
+}
+
 /// The steps of one evaluation: counts them, looks at the state, and remembers a failure.
 class Evaluation {
  public:
@@ -55,7 +60,7 @@ class Evaluation {
       : system_(body, scene),
         scene_(scene),
         options_(options),
-        h_(options.step > 0 ? options.step : scene.step),
+        h_(step_of(options, scene)),
         settle_h_(scene.settle_step * (h_ / scene.step)),
         outcome_(describe(body)) {
     outcome_.step = h_;
@@ -90,13 +95,17 @@ class Evaluation {
     const std::int64_t wanted = steps_in(scene_.settle_quiet_steps, settle_h_);
     const std::int64_t limit = steps_in(scene_.settle_max_steps, settle_h_);
     system_.set_settling(true);
+    const double start = system_.mean_position()[0];
+    bool off = false;  // and away: it will not rest
     std::int64_t quiet = 0;
-    while (quiet < wanted && outcome_.steps < limit) {
+    while (quiet < wanted && outcome_.steps < limit && !off) {
       system_.step(ReferenceMethod::symplectic_euler, 0, settle_h_);
       const bool sound = count(outcome_.steps + 1, settle_h_);
       outcome_.settle_time = static_cast<double>(outcome_.steps) * settle_h_;
       if (!sound) return false;
       quiet = system_.max_speed() < scene_.settle_speed ? quiet + 1 : 0;
+      off = outcome_.steps % check_interval == 0 &&
+            std::abs(system_.mean_position()[0] - start) > scene_.settle_range;
     }
     if (quiet < wanted) outcome_.status = Status::not_settled;
     system_.set_settling(false);
@@ -156,8 +165,20 @@ Outcome simulate_reference(const Body& body, const Scene& scene, const Reference
     refused.status = status_of(faults);
     return refused;
   }
-  return Evaluation(body, with_chosen_steps(body, scene, fast_method(options.method)), options)
-      .run();
+  const Scene chosen = with_chosen_steps(body, scene, fast_method(options.method));
+  Scene taken = chosen;
+  taken.step = step_of(options, chosen);
+  taken.settle_step = chosen.settle_step * (taken.step / chosen.step);
+  if (const auto refusal = refused_step(body, taken)) {
+    refused.status = refusal->status;
+    refused.step = taken.step;
+    if (scene.ground) refused.settle_step = taken.settle_step;
+    refused.failed_value = refusal->largest;
+    refused.failed_index = refusal->node;
+    refused.failed_step = 0;
+    return refused;
+  }
+  return Evaluation(body, chosen, options).run();
 }
 
 }  // namespace metamorph::core

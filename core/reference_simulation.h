@@ -27,7 +27,7 @@ struct ReferenceOptions {
 
 /// One whole evaluation (MODEL section 4: settling, run, distance) in plain double precision: what
 /// the fast simulator is compared with. The stability limit of the step is not checked, so that
-/// failures can be watched.
+/// failures can be watched; what refused_step() refuses is.
 Outcome simulate_reference(const Body& body, const Scene& scene,
                            const ReferenceOptions& options = {});
 

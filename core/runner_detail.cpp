@@ -14,6 +14,7 @@ namespace {
 constexpr std::int64_t check_interval = 8;
 // The outline is kept whole by what stops approaches; this looks whether it was.
 constexpr std::int64_t outline_interval = 96;
+constexpr std::uint64_t speed_interval = 8;
 
 std::int64_t steps_of(int paper_steps, double step) {
   return std::llround(paper_steps * paper_step / step);
@@ -49,7 +50,7 @@ void Runner<T>::run(std::size_t i, const LocomotionTask& task, Outcome& outcome,
   coefficients_ = coefficients_of<T>(*scene_, method_);
   step_ = scene_->step;
   extremes_ = {};
-  fastest_ = T(0);
+  fastest2_ = kernels::Lanes<T>(T(0));
   touched_ = false;
   prepare_looks();
   if (scene_->self_collision) {
@@ -70,8 +71,8 @@ void Runner<T>::step(std::uint64_t n) {
       std::fill(fy.begin(), fy.begin() + lanes, T(0));
     }
     pairs_ = collisions_.pairs(view_.now, view_.inverse_mass);
-    // At the speeds of the last step, and some more: hardly ever does it have to be looked again.
-    reach_ = reach_at(fastest_) * T(1.25) + T(0.02);
+    // Speeds change little in a few steps: hardly ever has to be looked again.
+    if (n % speed_interval == 0) expect_speed(std::sqrt(largest(fastest2_)));
     const kernels::PairCounts found =
         meet(static_cast<T>(scene_->collision_stiffness), fx.data(), fy.data());
     near_ = found.near;
@@ -82,15 +83,16 @@ void Runner<T>::step(std::uint64_t n) {
   extremes_.largest_speed2 = kernels::Lanes<T>(T(0));
   step_function<T>(terms)(view_, coefficients_, static_cast<kernels::Turn<T>>(n), extremes_);
   fastest2_ = extremes_.largest_speed2;
+  if (scene_->self_collision && stop()) fastest2_ = speeds2();
   extremes_.largest_speed2 = kernels::max(fastest2_, before);
-  if (scene_->self_collision) stop();
   std::swap(view_.now, view_.next);
 }
 
-/// What a pair that approaches at twice this speed may come nearer in a step, d.
+/// Sets how near pairs must be to be looked at, for speeds up to somewhat more than this.
 template <class T>
-T Runner<T>::reach_at(T speed) const {
-  return 2 * coefficients_.step * speed;
+void Runner<T>::expect_speed(T speed) {
+  expected_ = T(1.25) * speed + T(0.05);
+  reach_ = 2 * coefficients_.step * expected_;
 }
 
 /// Finds the pairs within `reach_`, and adds their penalty.
@@ -101,32 +103,48 @@ kernels::PairCounts Runner<T>::meet(T stiffness, T* fx, T* fy) {
                              collisions_.approaches());
 }
 
-/// Between kick and drift, which the step has done in one: stops what would come too near.
+/// Between kick and drift, which the step has done in one: stops what would come too near. Returns
+/// whether there was anything.
 template <class T>
-void Runner<T>::stop() {
-  fastest_ = std::sqrt(largest(fastest2_));
-  collisions_.advance(fastest2_, coefficients_.step);
-  bool all_near = collisions_.held(view_.now, view_.next, view_.inverse_mass);
-  if (!all_near) pairs_ = collisions_.pairs(view_.now, view_.inverse_mass);
+bool Runner<T>::stop() {
+  using Pack = kernels::Lanes<T>;
   const kernels::StopStep<T> stop_step{coefficients_.step, T(1) / coefficients_.step,
                                        coefficients_.extrapolate / coefficients_.step,
                                        scene_->ground, coefficients_.friction};
-  T fastest = fastest_;
+  Pack speed2 = fastest2_, moved2 = fastest2_;
+  bool again = false;
   while (true) {
-    if (!all_near || reach_at(fastest) > reach_) {
-      reach_ = reach_at(fastest) * T(1.25);
+    // What was pushed may be faster than all before, or elsewhere: then more may be near.
+    collisions_.advance(moved2, coefficients_.step);
+    const bool held = collisions_.held(view_.now, view_.next, view_.inverse_mass);
+    const bool expected = kernels::all(speed2 < Pack(expected_ * expected_));
+    if (!held) pairs_ = collisions_.pairs(view_.now, view_.inverse_mass);
+    if (!expected) expect_speed(std::sqrt(largest(speed2)));
+    if (!held || !expected) {
       near_ = meet(T(0), state_.extra_fx.data(), state_.extra_fy.data()).near;
-      all_near = true;
+    } else if (again) {
+      return true;
     }
     const kernels::Approach<T>* const begin = collisions_.approaches();
     const kernels::Stopped<T> stopped = kernels::stop_approaches(
         begin, begin + near_, stop_step, view_.now, view_.next, view_.vx, view_.vy);
-    if (!stopped.any) return;
-    collisions_.advance(kernels::Lanes<T>(stopped.change * stopped.change), coefficients_.step);
-    // What was pushed may be faster than all before; then more may be near.
-    fastest = std::sqrt(stopped.fastest2);
-    if (!(reach_at(fastest) > reach_)) return;
+    if (!stopped.any) return again;
+    speed2 = Pack(stopped.fastest2);
+    moved2 = Pack(stopped.change * stopped.change);
+    again = true;
   }
+}
+
+/// The largest squared speeds now, each lane for itself.
+template <class T>
+kernels::Lanes<T> Runner<T>::speeds2() const {
+  using Pack = kernels::Lanes<T>;
+  Pack largest2(T(0));
+  for (int base = 0; base < view_.groups * Pack::width; base += Pack::width) {
+    const Pack vx = Pack::load(view_.vx + base), vy = Pack::load(view_.vy + base);
+    largest2 = max(fma(vx, vx, vy * vy), largest2);
+  }
+  return largest2;
 }
 
 template <class T>
@@ -136,14 +154,18 @@ bool Runner<T>::settle(Outcome& outcome) {
   const std::int64_t quiet_needed = steps_of(scene.settle_quiet_steps, step_);
   const std::int64_t most = steps_of(scene.settle_max_steps, step_);
   const kernels::Lanes<T> quiet2(static_cast<T>(scene.settle_speed * scene.settle_speed));
+  const double start_x = mean_position().x;
+  bool off = false;  // and away: it will not rest
   std::int64_t quiet = 0, n = 0;
-  while (n < most && quiet < quiet_needed) {
+  while (n < most && quiet < quiet_needed && !off) {
     step(static_cast<std::uint64_t>(n));
     quiet = all(fastest2_ < quiet2) ? quiet + 1 : 0;
     ++n;
     outcome.steps = n;
     outcome.settle_time = static_cast<double>(n) * step_;
-    if (n % check_interval == 0 && !sound(outcome, n % outline_interval == 0)) return false;
+    if (n % check_interval != 0) continue;
+    if (!sound(outcome, n % outline_interval == 0)) return false;
+    off = std::abs(mean_position().x - start_x) > scene.settle_range;
   }
   end_settling();
   if (quiet < quiet_needed) outcome.status = Status::not_settled;

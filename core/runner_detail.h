@@ -31,9 +31,10 @@ class Runner {
   void begin_settling();
   void end_settling();
   void step(std::uint64_t n);
-  T reach_at(T speed) const;
+  void expect_speed(T speed);
   kernels::PairCounts meet(T stiffness, T* fx, T* fy);
-  void stop();
+  bool stop();
+  kernels::Lanes<T> speeds2() const;
   bool sound(Outcome& outcome, bool look_at_outline);
   void prepare_looks();
   bool solid(Outcome& outcome);
@@ -64,7 +65,7 @@ class Runner {
   kernels::CollisionPairs<T> pairs_{};         ///< of the step
   int near_ = 0;                               ///< pairs within reach_
   T reach_ = 0;                                ///< d, see kernels::meet_pairs
-  T fastest_ = 0;                              ///< speed of the last step
+  T expected_ = 0;                             ///< the speed up to which that is enough
   std::vector<std::size_t> lane_of_;           ///< [nodes of the body]
   std::vector<std::size_t> without_pressure_;  ///< triangles
   Aligned<T> look_[6];                         ///< [outline edges], see kernels::EdgeLook

@@ -24,7 +24,7 @@ Scene land_scene() {
   scene.name = "land";
   scene.drag = false;
   scene.ground = true;
-  scene.step = 0.1;
+  scene.step = 0.15;
   scene.distance = DistanceRule::horizontal;
   return scene;
 }

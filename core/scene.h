@@ -24,7 +24,7 @@ struct Scene {
   // Body, in every scene.
   double stiffness = 1.0;           ///< k of eq 2
   double damping = 0.4;             ///< c of eq 2
-  double pressure = 1.0;            ///< c_p of eq 1; 0 turns the term off
+  double pressure = 1.5;            ///< c_p of eq 1; 0 turns the term off
   double amplitude = 0.15;          ///< A of eq 3
   double min_pressure_area = 0.15;  ///< a triangle with S0 below this exerts no pressure, d^2
 
@@ -59,6 +59,7 @@ struct Scene {
   double settle_speed = 0.01;    ///< quiet below this speed, d per time unit
   int settle_quiet_steps = 800;  ///< paper steps that must be quiet
   int settle_max_steps = 6000;   ///< paper steps; then start anyway
+  double settle_range = 10.0;    ///< d; a body that has slid or rolled so far starts anyway, too
 };
 
 /// Distance by a rule of a displacement (dx, dy), d.

@@ -10,14 +10,15 @@ namespace metamorph::core {
 /// step, index and value that showed it (see Outcome), and distance 0; it disturbs nobody.
 enum class Status : std::uint8_t {
   ok,
-  not_settled,      ///< ran, but was still moving when settling timed out; its distance counts
+  not_settled,      ///< ran, but was still moving when settling timed out, or had gone too
+                    ///< far by then; its distance counts
   empty,            ///< no cell alive at the stage end; normal, distance 0
   no_body,          ///< fewer than 8 nodes after extraction; normal, distance 0
   bad_input,        ///< a parameter is not finite or has the wrong sign
   bad_geometry,     ///< coincident nodes, or a triangle without area or turned the wrong way
   bad_topology,     ///< isolated node, or more than one edge-connected component
   bad_development,  ///< development became infinite or not a number: there is no body
-  step_too_large,   ///< the step is beyond the method's stability limit for this body
+  step_too_large,   ///< the step is beyond what the method, a period or the run's length allows
   inverted,         ///< a triangle turned inside out
   crossed,          ///< the outline crossed itself
   collapsed,        ///< a triangle was squeezed below what the step resolves

@@ -81,6 +81,9 @@ inline Stopped<T> stop_approaches(const Approach<T>* begin, const Approach<T>* e
       const T wx = vx[p] - vx[a],
               wy = vy[p] - vy[a];  // of the node; both as its first end sees them
       const T nx = pair->nx, ny = pair->ny, along = nx * wx + ny * wy, turning = nx * ux + ny * uy;
+      // Nowhere along the edge too fast: as at nearly all times.
+      const T allowed = -std::max(pair->room, T(0)) * s.inverse_step;
+      if (along >= allowed && along - turning >= allowed && pair->room >= T(0)) continue;
       // Where the node will be nearest after the drift.
       const T fx = std::fma(s.step, ux, ex), fy = std::fma(s.step, uy, ey);
       const T qx = std::fma(s.step, wx, now[p].x - now[a].x);

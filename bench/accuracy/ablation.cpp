@@ -38,7 +38,6 @@ std::vector<Variant> variants(const Scene& scene) {
     add("no normal drag", [](Scene& s) { s.drag_normal = 0; });
   } else {
     add("no friction", [](Scene& s) { s.friction = 0; });
-    add("no ground damping", [](Scene& s) { s.ground_damping = 0; });
     add("no settling", [](Scene& s) { s.settle_max_steps = 0; });
   }
   for (const int steps : {750, 1500, 6000})

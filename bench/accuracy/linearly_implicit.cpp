@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "kernels/reference/ground.h"
 #include "kernels/reference/pressure.h"
+#include "kernels/reference/solid.h"
 
 namespace metamorph::bench {
 namespace {
@@ -23,8 +23,6 @@ Eigen::VectorXd joined(const std::vector<double>& x, const std::vector<double>& 
   return both;
 }
 
-double friction_of(const core::Scene& scene) { return scene.ground ? scene.friction : 0; }
-
 }  // namespace
 
 ImplicitMatrix::ImplicitMatrix(const core::Body& body, const core::Scene& scene)
@@ -33,8 +31,7 @@ ImplicitMatrix::ImplicitMatrix(const core::Body& body, const core::Scene& scene)
       left_side_(2 * body.node_count(), 2 * body.node_count()),
       stiffness_matrix_(2 * body.node_count(), 2 * body.node_count()) {}
 
-void ImplicitMatrix::factorise(const core::ReferenceSystem& system,
-                               const std::vector<double>& normal, double of_damping,
+void ImplicitMatrix::factorise(const core::ReferenceSystem& system, double of_damping,
                                double of_stiffness) {
   const double damping = scene_.damping;
   left_.clear();
@@ -75,9 +72,6 @@ void ImplicitMatrix::factorise(const core::ReferenceSystem& system,
             row(corners[q / 2], static_cast<int>(q % 2)), k * g[p] * g[q], 0);
   }
   for (core::Index i = 0; i < body_.node_count(); ++i) {
-    const bool touches = scene_.ground && normal[static_cast<std::size_t>(i)] > 0;
-    add(row(i, 1), row(i, 1), touches ? scene_.ground_stiffness : 0,
-        touches ? scene_.ground_damping : 0);
     left_.emplace_back(row(i, 0), row(i, 0), system.mass);
     left_.emplace_back(row(i, 1), row(i, 1), system.mass);
   }
@@ -93,45 +87,40 @@ Eigen::VectorXd ImplicitMatrix::solve(const Eigen::VectorXd& right_side) const {
 }
 
 LinearlyImplicitEuler::LinearlyImplicitEuler(const core::Body& body, const core::Scene& scene)
-    : friction_(friction_of(scene)),
-      matrix_(body, scene),
-      fx_(body.x.size()),
-      fy_(body.x.size()),
-      normal_(body.x.size()) {}
+    : matrix_(body, scene), fx_(body.x.size()), fy_(body.x.size()) {}
 
 void LinearlyImplicitEuler::step(core::ReferenceSystem& system, double t, double h) {
-  system.forces(system.nodes(), t + h, {fx_, fy_}, normal_);
-  matrix_.factorise(system, normal_, h, h * h);
+  system.forces(system.nodes(), t + h, {fx_, fy_});
+  matrix_.factorise(system, h, h * h);
   const Eigen::VectorXd kick = matrix_.solve(
       h * (joined(fx_, fy_) - h * (matrix_.stiffness() * joined(system.vx, system.vy))));
   for (std::size_t i = 0; i < system.x.size(); ++i) {
     const auto place = 2 * static_cast<Eigen::Index>(i);
-    system.vx[i] =
-        ref::after_friction(system.vx[i] + kick[place], friction_ * h * normal_[i] / system.mass);
+    system.vx[i] += kick[place];
     system.vy[i] += kick[place + 1];
+  }
+  ref::keep_apart(system.solid(), h, system.x, system.y, system.vx, system.vy);
+  for (std::size_t i = 0; i < system.x.size(); ++i) {
     system.x[i] += h * system.vx[i];
     system.y[i] += h * system.vy[i];
   }
 }
 
 Rosenbrock2::Rosenbrock2(const core::Body& body, const core::Scene& scene)
-    : friction_(friction_of(scene)),
-      matrix_(body, scene),
+    : matrix_(body, scene),
       x_(body.x.size()),
       y_(body.x.size()),
       vx_(body.x.size()),
       vy_(body.x.size()),
       fx_(body.x.size()),
-      fy_(body.x.size()),
-      first_normal_(body.x.size()),
-      normal_(body.x.size()) {}
+      fy_(body.x.size()) {}
 
 // With k = (kx, kv) and a right side (rx, rv), the rows of (1 - g h A) k = r are kx = rx + g h kv
 // and (m + g h C + g^2 h^2 K) kv = m rv - g h K rx.
 void Rosenbrock2::step(core::ReferenceSystem& system, double t, double h) {
   const double gh = (1 - std::numbers::sqrt2 / 2) * h;
-  system.forces(system.nodes(), t, {fx_, fy_}, first_normal_);
-  matrix_.factorise(system, first_normal_, gh, gh * gh);
+  system.forces(system.nodes(), t, {fx_, fy_});
+  matrix_.factorise(system, gh, gh * gh);
   const auto& stiffness = matrix_.stiffness();
   const Eigen::VectorXd v = joined(system.vx, system.vy);
   const Eigen::VectorXd kv1 = matrix_.solve(joined(fx_, fy_) - gh * (stiffness * v));
@@ -144,22 +133,26 @@ void Rosenbrock2::step(core::ReferenceSystem& system, double t, double h) {
     vx_[i] = system.vx[i] + h * kv1[place];
     vy_[i] = system.vy[i] + h * kv1[place + 1];
   }
-  system.forces({x_, y_, vx_, vy_}, t + h, {fx_, fy_}, normal_);
+  system.forces({x_, y_, vx_, vy_}, t + h, {fx_, fy_});
   const Eigen::VectorXd rx = v + h * kv1 - 2 * kx1;
   const Eigen::VectorXd kv2 =
       matrix_.solve(joined(fx_, fy_) - 2 * system.mass * kv1 - gh * (stiffness * rx));
   const Eigen::VectorXd kx2 = rx + gh * kv2;
 
-  const Eigen::VectorXd dx = h * (1.5 * kx1 + 0.5 * kx2);
-  const Eigen::VectorXd dv = h * (1.5 * kv1 + 0.5 * kv2);
+  const Eigen::VectorXd drift = 1.5 * kx1 + 0.5 * kx2;
+  const Eigen::VectorXd kick = h * (1.5 * kv1 + 0.5 * kv2);
   for (std::size_t i = 0; i < x_.size(); ++i) {
     const auto place = 2 * static_cast<Eigen::Index>(i);
-    system.x[i] += dx[place];
-    system.y[i] += dx[place + 1];
-    system.vx[i] =
-        ref::after_friction(system.vx[i] + dv[place],
-                            friction_ * h * (first_normal_[i] + normal_[i]) / 2 / system.mass);
-    system.vy[i] += dv[place + 1];
+    vx_[i] = drift[place];
+    vy_[i] = drift[place + 1];
+  }
+  ref::keep_apart(system.solid(), h, system.x, system.y, vx_, vy_);
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    const auto place = 2 * static_cast<Eigen::Index>(i);
+    system.x[i] += h * vx_[i];
+    system.y[i] += h * vy_[i];
+    system.vx[i] += kick[place] + (vx_[i] - drift[place]);
+    system.vy[i] += kick[place + 1] + (vy_[i] - drift[place + 1]);
   }
 }
 

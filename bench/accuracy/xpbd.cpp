@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "kernels/reference/actuation.h"
-#include "kernels/reference/ground.h"
 #include "kernels/reference/pressure.h"
+#include "kernels/reference/solid.h"
 
 namespace metamorph::bench {
 namespace {
@@ -24,15 +24,14 @@ Xpbd::Xpbd(const core::Body& body, const core::Scene& scene)
       outside_(body, without_body_forces(scene)),
       length_(body.rest_length),
       fx_(body.x.size()),
-      fy_(body.x.size()),
-      normal_(body.x.size()) {}
+      fy_(body.x.size()) {}
 
 void Xpbd::step(core::ReferenceSystem& system, double t, double h) {
   const double amplitude =
       scene_.amplitude * ref::ramp(t + h, scene_.ramp_steps * core::paper_step);
   ref::actuate(body_.springs, body_.rest_length, {body_.period, body_.phase}, amplitude, t + h,
                length_);
-  outside_.forces(system.nodes(), t, {fx_, fy_}, normal_);
+  outside_.forces(system.nodes(), t, {fx_, fy_});
   x_ = system.x;
   y_ = system.y;
   for (std::size_t i = 0; i < x_.size(); ++i) {
@@ -41,12 +40,14 @@ void Xpbd::step(core::ReferenceSystem& system, double t, double h) {
   }
   project_springs(system, h);
   if (scene_.pressure > 0) project_triangles(system, h);
-  const double friction = scene_.ground ? scene_.friction : 0;
   for (std::size_t i = 0; i < x_.size(); ++i) {
-    system.vx[i] =
-        ref::after_friction((system.x[i] - x_[i]) / h, friction * h * normal_[i] / system.mass);
+    system.vx[i] = (system.x[i] - x_[i]) / h;
     system.vy[i] = (system.y[i] - y_[i]) / h;
+  }
+  ref::keep_apart(system.solid(), h, x_, y_, system.vx, system.vy);
+  for (std::size_t i = 0; i < x_.size(); ++i) {
     system.x[i] = x_[i] + h * system.vx[i];
+    system.y[i] = y_[i] + h * system.vy[i];
   }
 }
 

@@ -10,8 +10,8 @@ namespace metamorph::bench {
 
 /// XPBD with small steps (Macklin et al. 2016, 2019), for comparison: one sweep over the springs
 /// (compliance 1/k, Rayleigh damping c) and the triangles per step. Pressure is the constraint
-/// sqrt(2 U) of its exact energy. Everything else acts as a force before the sweep; friction is an
-/// impulse on the velocity after it. For runs, not for settling.
+/// sqrt(2 U) of its exact energy. Everything else acts as a force before the sweep; what is solid
+/// acts by impulses on the velocity after it. For runs, not for settling.
 class Xpbd {
  public:
   static constexpr int evaluations_per_step = 1;
@@ -26,7 +26,7 @@ class Xpbd {
   core::Body body_;
   core::Scene scene_;
   core::ReferenceSystem outside_;  ///< the same scene without springs, dampers and pressure
-  std::vector<double> length_, fx_, fy_, normal_, x_, y_;
+  std::vector<double> length_, fx_, fy_, x_, y_;
 };
 
 }  // namespace metamorph::bench

@@ -32,13 +32,10 @@ nlohmann::ordered_json json_of(const DeviationRange& range) {
 }
 
 nlohmann::ordered_json json_of(const NearbyStarts& nearby) {
-  return {{"starts", nearby.starts},
-          {"failed", nearby.failed},
-          {"mean", nearby.mean},
-          {"spread", nearby.spread},
-          {"growth", nearby.growth},
-          {"parted", nearby.parted},
-          {"predictable_for", nearby.predictable_for}};
+  return {{"starts", nearby.starts}, {"failed", nearby.failed},
+          {"mean", nearby.mean},     {"median", nearby.median},
+          {"spread", nearby.spread}, {"growth", nearby.growth},
+          {"parted", nearby.parted}, {"predictable_for", nearby.predictable_for}};
 }
 
 void print_trial_json(const ChampionAudit& champion, std::size_t t, const Trial& trial) {
@@ -250,7 +247,8 @@ void add_audit_command(CLI::App& app) {
       "audit",
       "Says how far the distances of a run can be trusted: simulates its champions again, by the "
       "same program (which must give the same bits) and by the reference in double precision at a "
-      "quarter of the step; on land also from nearby starts. A deviation is relative to the larger "
+      "quarter of the step; on land also from nearby starts. A champion of a trial with starts of "
+      "its own is replayed from those of its generation. A deviation is relative to the larger "
       "distance, above 0 where more was recorded than the reference confirms.");
   command->add_option("RUN", given->run, "directory of a run, or its run.db")->required();
   command
@@ -261,11 +259,16 @@ void add_audit_command(CLI::App& app) {
   command->add_option("--every", given->options.every, "Only generations divisible by K")
       ->check(integer_from(1, 1000000))
       ->option_text("K [1]");
+  command->add_option("--from", given->options.from, "Only generations from this one on")
+      ->check(integer_from(0, 100000000))
+      ->option_text("N [0]");
   command
       ->add_option("--nearby", given->options.nearby_starts,
                    "Starts 1e-6 d away, and as many 1e-3 d away, per champion on land")
       ->check(integer_from(0, 1000))
       ->option_text("N [4]");
+  command->add_flag("--nearby-in-water", given->options.nearby_in_water,
+                    "Nearby starts in scenes without ground as well, which forget most of them");
   command->add_option("--threads", given->options.threads, "Threads; 0 for all there are")
       ->check(integer_from(0, 4096))
       ->option_text("N [0]");

@@ -92,13 +92,13 @@ void draw(const std::vector<Grown>& all, int larva_steps, const fs::path& file) 
 
 void print(const std::vector<Grown>& all, bool as_json) {
   if (!as_json)
-    fmt::print("step  cells  created  died  body     nodes  springs  triangles  file\n");
+    fmt::print("step  cells  created  died  body             nodes  springs  triangles  file\n");
   for (const Grown& grown : all) {
     const core::Embryo& embryo = grown.embryo;
     const core::Body& body = grown.extraction.body;
     const auto status = core::name(grown.extraction.status);
     if (!as_json) {
-      fmt::print("{:<4}  {:>5}  {:>7}  {:>4}  {:<7}  {:>5}  {:>7}  {:>9}  {}\n", embryo.step,
+      fmt::print("{:<4}  {:>5}  {:>7}  {:>4}  {:<15}  {:>5}  {:>7}  {:>9}  {}\n", embryo.step,
                  embryo.cell_count(), embryo.created, embryo.died, status, body.node_count(),
                  body.springs.size(), body.triangles.size(), grown.embryo_file.string());
       continue;

@@ -7,6 +7,7 @@
 #include "core/status.h"
 #include "evolve/app/commands.h"
 #include "evolve/app/text.h"
+#include "evolve/experiment/keys.h"
 #include "evolve/run/run_reader.h"
 
 namespace metamorph::evolve {
@@ -44,12 +45,22 @@ void print_json(const RunReader& run, const Experiment& experiment) {
   fmt::print("{}\n", json.dump());
 }
 
+/// How a trial's starts count, where they are not one body as it is.
+std::string starts_text(const Trial& trial) {
+  if (trial.starts == 1 && !trial.starts_renew) return "";
+  return fmt::format(", {} of {} starts within {} d{}",
+                     starts_combine_names[static_cast<std::size_t>(trial.starts_combine)],
+                     trial.starts, trial.start_displacement,
+                     trial.starts_renew ? ", other ones in every generation" : "");
+}
+
 void print_text(const RunReader& run, const Experiment& experiment) {
   const int done = run.generations_done();
   fmt::print("{}\n", run.file().string());
   fmt::print("experiment   {}, seed {}\n", experiment.name, experiment.seed);
   for (const Trial& trial : experiment.trials) {
-    fmt::print("trial        {}: {} at step {}\n", trial.name, trial.scene, trial.stage);
+    fmt::print("trial        {}: {} at step {}{}\n", trial.name, trial.scene, trial.stage,
+               starts_text(trial));
   }
   fmt::print("generations  {} of {}, {} individuals each\n", done, experiment.generations,
              experiment.neat.population);

@@ -42,6 +42,7 @@ struct Subject {
   Experiment experiment;
   Genome genome;
   std::string heading;
+  int generation = 0;  ///< whose starts the outcomes shown are of
 };
 
 Experiment water_to_land() {
@@ -57,6 +58,7 @@ Subject subject_of_run(const RenderOptions& options) {
   Subject subject{run.experiment(), {}, ""};
   const Champion champion = options.generation >= 0 ? run.champion(options.generation) : run.best();
   subject.genome = champion.genome;
+  subject.generation = champion.generation;
   subject.heading =
       fmt::format("{}, seed {}: best of generation {}, {:.3f} d (eq 6)", subject.experiment.name,
                   subject.experiment.seed, champion.generation, champion.eq6);
@@ -70,7 +72,9 @@ Subject subject_of_genome(const RenderOptions& options) {
 
 std::vector<core::Outcome> outcomes_of(const Subject& subject) {
   EvaluationSeconds seconds;
-  return Evaluator(subject.experiment, 1).evaluate_fully(subject.genome, seconds).evaluation.trials;
+  return Evaluator(subject.experiment, 1)
+      .evaluate_fully(subject.genome, subject.generation, seconds)
+      .evaluation.trials;
 }
 
 std::vector<core::Embryo> embryos_of(const Subject& subject, const std::vector<int>& steps) {
@@ -222,8 +226,8 @@ void add_render_command(CLI::App& app) {
   command
       ->add_option("--kind", options->kind,
                    "animat: embryos and bodies of all stages (figures 4, 5); development: a row of "
-                   "steps (figures 4, 8); motion: one cycle (figures 3, 6); phase: phase shifts "
-                   "(figure 9)")
+                   "steps (figures 4, 8); motion: one cycle (figures 3, 6), from the body as it is "
+                   "also where a trial displaces it; phase: phase shifts (figure 9)")
       ->check(one_of({"animat", "development", "motion", "phase"}))
       ->option_text("KIND [animat]");
   command->add_option("--generation", options->generation, "Of a run: the best of this generation")

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,10 @@
 #include "core/automatic_step.h"
 #include "core/locomotion.h"
 #include "core/stability.h"
+#include "core/step_refusal.h"
 #include "evolve/app/commands.h"
 #include "evolve/app/options.h"
+#include "evolve/app/text.h"
 #include "evolve/files/animat_file.h"
 #include "evolve/files/input_error.h"
 #include "evolve/files/outcome_json.h"
@@ -104,6 +107,42 @@ void warn_of_steps(const std::vector<Animat>& animats, const core::Scene& scene,
              close == 1 ? "" : fmt::format(", and so for {} of {} bodies", close, bodies));
 }
 
+/// Steps that no body of these could be moved with are a mistake of who asks, like a fault in a
+/// file: all of them are told, and nothing is moved.
+void check_steps(const std::vector<Animat>& animats, const core::Scene& scene) {
+  std::vector<std::string> faults;
+  for (const Animat& animat : animats) {
+    if (animat.status != core::Status::ok || !core::check(animat.body).empty()) continue;
+    const auto refusal = core::refused_step(animat.body, scene);
+    if (!refusal) continue;
+    faults.push_back(fmt::format(
+        "{}: step {}: expected at most {:.6g}, {}", animat.name, scene.step, refusal->largest,
+        refusal->node < 0 ? "the length of the run"
+                          : fmt::format("a quarter of the period of node {}", refusal->node)));
+  }
+  if (!faults.empty()) throw InputError(faults);
+}
+
+/// Before the first step of work that takes long: how much it is.
+void tell_work(const std::vector<Animat>& animats, const core::Scene& scene,
+               const core::LocomotionOptions& options) {
+  double most_steps = 0, spring_steps = 0;
+  int bodies = 0;
+  for (const Animat& animat : animats) {
+    if (animat.status != core::Status::ok || !core::check(animat.body).empty()) continue;
+    const core::Scene own = core::with_chosen_steps(animat.body, scene, options.method);
+    double steps = own.run_steps * core::paper_step / own.step;
+    if (own.ground) steps += own.settle_quiet_steps * core::paper_step / own.settle_step;
+    most_steps = std::max(most_steps, steps);
+    spring_steps += steps * static_cast<double>(animat.body.springs.size());
+    ++bodies;
+  }
+  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+  const std::string work =
+      work_text(most_steps, spring_steps, std::clamp(threads, 1, std::max(bodies, 1)));
+  if (!work.empty()) fmt::print(stderr, "long work: {}\n", work);
+}
+
 core::Outcome simulate_with_trajectory(const Animat& animat, const core::Scene& given,
                                        const SimulateOptions& options) {
   if (animat.status != core::Status::ok) return without_body(animat.status);
@@ -132,13 +171,8 @@ void print_table(const std::vector<Animat>& animats, const std::vector<core::Out
         animats[i].name, width, core::name(o.status), o.distance, o.mean_position[0],
         o.mean_position[1], o.cells, o.springs, o.triangles, o.step, o.steps, o.settle_time,
         o.min_area_ratio, o.max_speed);
-    if (o.status == core::Status::step_too_large) {
-      fmt::print("{:<{}}  the largest stable step for this body is {:.3g}\n", "", width,
-                 o.failed_value);
-    } else if (core::is_failure(o.status)) {
-      fmt::print("{:<{}}  failed at step {}, index {}, value {}\n", "", width, o.failed_step,
-                 o.failed_index, o.failed_value);
-    }
+    const std::string failure = failure_text(o, animats[i].body);
+    if (!failure.empty()) fmt::print("{:<{}}  {}\n", "", width, failure);
   }
 }
 
@@ -148,6 +182,8 @@ void simulate_command(const SimulateOptions& options) {
   }
   const std::vector<Animat> animats = animats_of(options);
   const core::Scene scene = scene_of(options);
+  check_steps(animats, scene);
+  tell_work(animats, scene, options.locomotion);
   warn_of_steps(animats, scene, options.locomotion.method);
   std::vector<core::Outcome> outcomes;
   if (options.trajectory.empty()) {

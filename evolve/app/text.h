@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
+#include "core/body.h"
+#include "core/outcome.h"
 #include "evolve/run/evaluate.h"
 
 namespace metamorph::evolve {
@@ -16,5 +19,13 @@ std::string near_limit_text();
 /// What had not to be computed again: "39 of 300 developments (13.0 %), 88 of 560 simulations
 /// (15.7 %)"; empty if nothing was to be computed.
 std::string saved_text(const EvaluationWork& work);
+
+/// Where and how an outcome of a body failed, for people: "failed at step 48: node 12 crossed edge
+/// [3, 4]"; empty if it did not, or where the status says all.
+std::string failure_text(const core::Outcome& outcome, const core::Body& body);
+
+/// What a batch is about to cost, "5e+13 steps per body, about 24 h 10 min on 2 threads"; empty if
+/// it is done in minutes. spring_steps: the sum over the bodies of springs times steps.
+std::string work_text(double most_steps, double spring_steps, int threads);
 
 }  // namespace metamorph::evolve

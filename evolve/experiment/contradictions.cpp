@@ -25,6 +25,9 @@ void check_trials(const Experiment& e, std::vector<Contradiction>& found) {
       found.push_back({path + ".name", "a name that no other trial has"});
     }
     at_most(found, path + ".stage", trial.stage, "development.steps", e.development.steps);
+    if ((trial.starts > 1 || trial.starts_renew) && trial.start_displacement == 0) {
+      found.push_back({path + ".start_displacement", "more than 0: all starts would be one"});
+    }
   }
   if (e.search.kind != SearchKind::progressive) return;
   if (e.trials.size() != 2) {
@@ -65,6 +68,10 @@ std::vector<Contradiction> contradictions(const Experiment& e) {
       at_most(found, path + ".settle_quiet_steps", scene.settle_quiet_steps,
               path + ".settle_max_steps", scene.settle_max_steps);
     }
+    at_most(found, path + ".step", scene.step, "development.period_min / 4",
+            e.development.period_min / 4);
+    at_most(found, path + ".step", scene.step, path + ".run_steps * 0.2",
+            scene.run_steps * core::paper_step);
     bool used = false;
     for (const Trial& trial : e.trials) used |= trial.scene == scene.name;
     if (!used) found.push_back({path, "a scene that a trial names"});

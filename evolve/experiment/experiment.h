@@ -12,11 +12,21 @@
 
 namespace metamorph::evolve {
 
-/// One evaluation of an individual: the body it has at a stage of development, in one scene.
+/// How the outcomes of a trial's starts become one (evolve/run/starts.h).
+enum class StartsCombine { mean, median, least };
+
+/// One evaluation of an individual: the body it has at a stage of development, in one scene, from
+/// one start or from several a hair apart. On land a gait may have several outcomes, and which one
+/// comes is decided by how the body happened to come to rest: of many bodies run once, a search
+/// keeps those that were lucky.
 struct Trial {
-  std::string name;   ///< larva, adult, swim, walk, ...
-  int stage = 600;    ///< development step at which the body is taken
-  std::string scene;  ///< name of one of the experiment's scenes
+  std::string name;                  ///< larva, adult, swim, walk, ...
+  int stage = 600;                   ///< development step at which the body is taken
+  std::string scene;                 ///< name of one of the experiment's scenes
+  int starts = 1;                    ///< times the body is run
+  double start_displacement = 1e-3;  ///< d, of every node, in x and in y, at most
+  StartsCombine starts_combine = StartsCombine::mean;
+  bool starts_renew = false;  ///< every generation has other starts: what lives on tries again
 };
 
 /// A scene of an experiment: one of the four environments with some coefficients replaced. The

@@ -141,7 +141,17 @@ Section trial_section(Trial& t) {
           "a body of one stage, in one scene",
           {{"name", &t.name, 0, 0, "name of the trial"},
            {"stage", &t.stage, 1, 1e6, "development step at which the body is taken"},
-           {"scene", &t.scene, 0, 0, "water, land, land-right, slope or one of [scenes]"}}};
+           {"scene", &t.scene, 0, 0, "water, land, land-right, slope or one of [scenes]"},
+           {"starts", &t.starts, 1, 1000, "times a body is run, from starts a hair apart"},
+           {"start_displacement", &t.start_displacement, 0, 1,
+            "d; largest move of a node in x and in y; the first start is the body as it is"},
+           {"starts_combine",
+            choice(t.starts_combine,
+                   {std::begin(starts_combine_names), std::end(starts_combine_names)}),
+            0, 0, "what counts of the starts; a failed one has distance 0"},
+           {"starts_renew", &t.starts_renew, 0, 0,
+            "every generation has other starts, the first one moved as well: parents that live on "
+            "are run again"}}};
 }
 
 Section scene_section(NamedScene& named) {
@@ -175,7 +185,8 @@ Section scene_section(NamedScene& named) {
            {"settle_drag", &s.settle_drag, 0, 1e6, "drag per node while settling"},
            {"settle_speed", &s.settle_speed, 0, 1e6, "quiet below this, d per time unit"},
            {"settle_quiet_steps", &s.settle_quiet_steps, 0, no_limit, "steps that must be quiet"},
-           {"settle_max_steps", &s.settle_max_steps, 0, no_limit, "then start anyway"}}};
+           {"settle_max_steps", &s.settle_max_steps, 0, no_limit, "then start anyway"},
+           {"settle_range", &s.settle_range, 0, no_limit, "what goes farther starts anyway, d"}}};
 }
 
 std::vector<Section> all_sections(Experiment& experiment) {

@@ -20,7 +20,7 @@ struct BodyChoice {
 /// Something that can be put into a scene.
 struct Animat {
   std::string name;                        ///< the file it came from
-  core::Status status = core::Status::ok;  ///< empty or no_body: development gave no body
+  core::Status status = core::Status::ok;  ///< another one: development gave no body
   core::Body body;
 };
 

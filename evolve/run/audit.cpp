@@ -12,24 +12,20 @@
 #include "core/reference_simulation.h"
 #include "evolve/files/input_error.h"
 #include "evolve/run/evaluate.h"
+#include "evolve/run/median.h"
+#include "evolve/run/starts.h"
 
 namespace metamorph::evolve {
 namespace {
 
 constexpr double reference_refinement = 4;  // steps of the reference per step of the record
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
 /// The distinct champions of the generations asked for, ascending.
-std::vector<Champion> distinct_champions(const RunReader& run, int every) {
+std::vector<Champion> distinct_champions(const RunReader& run, const AuditOptions& options) {
   std::vector<Champion> champions;
   const int generations = run.generations_done();
-  for (int g = 0; g < generations; g += every) {
+  for (int g = 0; g < generations; g += options.every) {
+    if (g < options.from) continue;
     Champion champion = run.champion(g);
     const bool known = std::any_of(champions.begin(), champions.end(), [&](const Champion& other) {
       return other.genome == champion.genome && other.eq6 == champion.eq6 &&
@@ -58,21 +54,33 @@ core::Extraction body_of(const Genome& genome, const Experiment& experiment, int
   return core::extract_body(embryos.front().front(), experiment.min_cells);
 }
 
+/// The reference's outcome of the starts that the trial has in that generation.
+core::Outcome reference_outcome(const core::Body& body, const Experiment& experiment,
+                                const Trial& trial, int generation) {
+  std::vector<core::Outcome> outcomes;
+  for (int s = 0; s < trial.starts; ++s) {
+    const core::Body start = start_of(body, trial, s, experiment.seed, generation);
+    const core::Scene scene =
+        core::with_chosen_steps(start, experiment.scene_of(trial), experiment.locomotion.method);
+    core::ReferenceOptions reference;
+    reference.step = scene.step / reference_refinement;
+    outcomes.push_back(core::simulate_reference(start, scene, reference));
+  }
+  return combine_starts(outcomes, trial.starts_combine);
+}
+
 /// Fills what goes beyond the replay.
-void compare(TrialAudit& audited, const Genome& genome, const Experiment& experiment,
+void compare(TrialAudit& audited, const Champion& champion, const Experiment& experiment,
              const Trial& trial, const AuditOptions& options) {
-  const core::Extraction extraction = body_of(genome, experiment, trial.stage);
+  const core::Extraction extraction = body_of(champion.genome, experiment, trial.stage);
   if (extraction.status != core::Status::ok) return;
-  const core::Scene scene = core::with_chosen_steps(extraction.body, experiment.scene_of(trial),
-                                                    experiment.locomotion.method);
   audited.compared = true;
-  core::ReferenceOptions reference;
-  reference.step = scene.step / reference_refinement;
-  audited.reference = core::simulate_reference(extraction.body, scene, reference);
+  audited.reference = reference_outcome(extraction.body, experiment, trial, champion.generation);
   audited.deviation = relative_deviation(audited.recorded_distance, audited.reference.distance);
   audited.replay_deviation =
       relative_deviation(audited.replay.distance, audited.reference.distance);
-  if (scene.ground && options.nearby_starts > 0) {
+  const core::Scene& scene = experiment.scene_of(trial);
+  if ((scene.ground || options.nearby_in_water) && options.nearby_starts > 0) {
     const auto nearby = [&](double displacement) {
       return run_nearby_starts(extraction.body, scene, experiment.locomotion.method,
                                options.nearby_starts, displacement);
@@ -211,10 +219,15 @@ RunAudit audit(const RunReader& run, const AuditOptions& options,
                const std::function<void(int, int)>& progress) {
   const Experiment experiment = run.experiment();
   RunAudit result;
-  std::vector<Champion> champions = distinct_champions(run, options.every);
+  std::vector<Champion> champions = distinct_champions(run, options);
   if (champions.empty()) {
-    throw InputError(fmt::format("{}: no generation is recorded yet: expected one at least",
-                                 run.file().string()));
+    throw InputError(
+        run.generations_done() == 0
+            ? fmt::format("{}: no generation is recorded yet: expected one at least",
+                          run.file().string())
+            : fmt::format(
+                  "--from {}: expected a generation divisible by {} from there on, below {}",
+                  options.from, options.every, run.generations_done()));
   }
   result.distinct = static_cast<int>(champions.size());
   keep_best(champions, options.champions);
@@ -225,14 +238,17 @@ RunAudit audit(const RunReader& run, const AuditOptions& options,
     audited.trials.resize(trials);
   }
 
-  std::vector<Genome> genomes;
-  for (const ChampionAudit& audited : result.champions) {
-    genomes.push_back(audited.champion.genome);
+  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+  std::vector<Evaluated> replays(result.champions.size());
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(replays.size()); ++i) {
+    const auto c = static_cast<std::size_t>(i);
+    const Champion& champion = result.champions[c].champion;
+    EvaluationSeconds seconds;
+    // By itself, because the starts may be those of its generation.
+    replays[c] =
+        Evaluator(experiment, 1).evaluate_fully(champion.genome, champion.generation, seconds);
   }
-  EvaluationSeconds seconds;
-  const std::vector<Evaluated> replays =
-      Evaluator(experiment, options.threads)
-          .evaluate(genomes, std::vector<std::uint8_t>(trials, 1), seconds);
   for (std::size_t c = 0; c < replays.size(); ++c) {
     const Champion& champion = result.champions[c].champion;
     for (std::size_t t = 0; t < trials; ++t) {
@@ -248,7 +264,6 @@ RunAudit audit(const RunReader& run, const AuditOptions& options,
 
   const auto count = static_cast<std::ptrdiff_t>(result.champions.size() * trials);
   int done = 0;
-  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const auto n = static_cast<std::size_t>(i);
@@ -256,8 +271,7 @@ RunAudit audit(const RunReader& run, const AuditOptions& options,
     TrialAudit& audited = champion.trials[n % trials];
     if (audited.recorded && !core::is_failure(audited.replay.status) &&
         !is_failure_name(audited.recorded_status)) {
-      compare(audited, champion.champion.genome, experiment, experiment.trials[n % trials],
-              options);
+      compare(audited, champion.champion, experiment, experiment.trials[n % trials], options);
     }
 #pragma omp critical(metamorph_audit_progress)
     if (progress) progress(++done, static_cast<int>(count));

@@ -11,12 +11,14 @@
 namespace metamorph::evolve {
 
 struct AuditOptions {
-  int champions = 50;          ///< at most so many distinct ones: the best by recorded eq 6
-  int every = 1;               ///< only generations divisible by this
-  int nearby_starts = 4;       ///< per champion and trial with ground; 0: none
-  double displacement = 1e-6;  ///< d, of those starts: does the gait forget it or blow it up?
-  double disturbance = 1e-3;   ///< d, of as many other starts: does the distance bear it?
-  int threads = 0;             ///< 0: all there are
+  int champions = 50;            ///< at most so many distinct ones: the best by recorded eq 6
+  int every = 1;                 ///< only generations divisible by this
+  int from = 0;                  ///< no generation before this
+  int nearby_starts = 4;         ///< per champion and trial with ground; 0: none
+  bool nearby_in_water = false;  ///< and per trial without
+  double displacement = 1e-6;    ///< d, of those starts: does the gait forget it or blow it up?
+  double disturbance = 1e-3;     ///< d, of as many other starts: does the distance bear it?
+  int threads = 0;               ///< 0: all there are
 };
 
 /// (distance - reference) over the larger of the two: above 0 if the distance is more than the
@@ -33,11 +35,12 @@ struct TrialAudit {
   bool same_bits = false;        ///< status and distance of the replay are those recorded
   bool compared = false;         ///< there is a body, and neither record nor replay is a failure;
                                  ///< else no reference was run
-  core::Outcome reference;       ///< double precision at a quarter of the step
-  double deviation = 0;          ///< relative_deviation() of the recorded distance
-  double replay_deviation = 0;   ///< and of the replay's
-  NearbyStarts nearby;           ///< where there is ground: by options.displacement
-  NearbyStarts disturbed;        ///< likewise by options.disturbance
+  core::Outcome reference;  ///< of the same starts, in double precision at a quarter of the step
+  double deviation = 0;     ///< relative_deviation() of the recorded distance
+  double replay_deviation = 0;  ///< and of the replay's
+  NearbyStarts nearby;          ///< around the body as it is, where there is ground (or with
+                                ///< options.nearby_in_water): by options.displacement
+  NearbyStarts disturbed;       ///< likewise by options.disturbance
 };
 
 struct ChampionAudit {
@@ -95,8 +98,9 @@ int confirmed_within(const RunAudit& audited, double share, bool replay);
 
 DeviationRange range_of(std::vector<double> deviations);
 
-/// Replays the champions of a run and compares them with the reference simulation. A champion that
-/// stays unchanged over generations counts once. `progress`, if set, is called with the number of
+/// Replays the champions of a run, each from the starts of its generation, and compares them with
+/// the reference simulation. A champion that stays over generations with the same results counts
+/// once. `progress`, if set, is called with the number of
 /// trials done and to do, from one thread at a time. The same result for any number of threads.
 /// Throws InputError if the record is damaged or has no champion that was asked for.
 RunAudit audit(const RunReader& run, const AuditOptions& options,

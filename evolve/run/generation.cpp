@@ -31,6 +31,16 @@ std::array<int, core::status_count> count_statuses(const GenerationResult& resul
   return counts;
 }
 
+std::int64_t count_evaluations(const Experiment& experiment, const GenerationResult& result) {
+  std::int64_t count = 0;
+  for (std::size_t t = 0; t < experiment.trials.size(); ++t) {
+    const auto counts = count_statuses(result, static_cast<int>(t));
+    count += std::accumulate(counts.begin(), counts.end(), std::int64_t{0}) *
+             experiment.trials[t].starts;
+  }
+  return count;
+}
+
 int count_near_step_limit(const GenerationResult& result) {
   int count = 0;
   for (const Evaluated& individual : result.individuals) {

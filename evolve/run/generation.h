@@ -39,6 +39,9 @@ struct GenerationResult {
 /// out.
 std::array<int, core::status_count> count_statuses(const GenerationResult& result, int trial = -1);
 
+/// Evaluations, each start counted; trials that were not run are left out.
+std::int64_t count_evaluations(const Experiment& experiment, const GenerationResult& result);
+
 /// Evaluations whose step came closer to its limit than the margin (core/stability.h).
 int count_near_step_limit(const GenerationResult& result);
 

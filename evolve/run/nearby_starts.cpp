@@ -6,10 +6,13 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/automatic_step.h"
 #include "core/random.h"
+#include "evolve/run/displaced.h"
+#include "evolve/run/median.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -65,15 +68,6 @@ std::optional<double> parting(const Course& a, const Course& b) {
   return std::nullopt;
 }
 
-core::Body displaced(core::Body body, int start, double displacement) {
-  core::RandomStream random(core::Purpose::nearby_start, 1, static_cast<std::uint32_t>(start), 0);
-  for (std::size_t i = 0; i < body.x.size(); ++i) {
-    body.x[i] += displacement * (2 * random.uniform() - 1);
-    body.y[i] += displacement * (2 * random.uniform() - 1);
-  }
-  return body;
-}
-
 }  // namespace
 
 NearbyStarts run_nearby_starts(const core::Body& body, const core::Scene& scene,
@@ -84,14 +78,17 @@ NearbyStarts run_nearby_starts(const core::Body& body, const core::Scene& scene,
   const Course unchanged = run_course(body, own, method);
   if (core::is_failure(unchanged.outcome.status)) return result;
   result.predictable_for = unchanged.time.back();
+  std::vector<double> distances;
   for (int s = 0; s < starts; ++s) {
-    const Course changed = run_course(displaced(body, s, displacement), own, method);
+    const core::RandomStream random(core::Purpose::nearby_start, 1, static_cast<std::uint32_t>(s),
+                                    0);
+    const Course changed = run_course(displaced(body, displacement, random), own, method);
     ++result.starts;
     if (core::is_failure(changed.outcome.status)) {
       ++result.failed;
       continue;
     }
-    result.mean += changed.outcome.distance;
+    distances.push_back(changed.outcome.distance);
     result.spread =
         std::max(result.spread, std::abs(changed.outcome.distance - unchanged.outcome.distance));
     result.growth = std::max(result.growth, separation(unchanged, changed) / displacement);
@@ -100,7 +97,8 @@ NearbyStarts run_nearby_starts(const core::Body& body, const core::Scene& scene,
       result.predictable_for = std::min(result.predictable_for, *time);
     }
   }
-  if (result.starts > result.failed) result.mean /= result.starts - result.failed;
+  if (!distances.empty()) result.mean = mean_of(distances);
+  result.median = median(std::move(distances));
   return result;
 }
 

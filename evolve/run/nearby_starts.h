@@ -11,6 +11,7 @@ struct NearbyStarts {
   int starts = 0;              ///< changed starts that were run
   int failed = 0;              ///< of them, ended in a failure; left out of the other numbers
   double mean = 0;             ///< distance of the changed starts, d
+  double median = 0;           ///< likewise
   double spread = 0;           ///< largest |distance - that of the unchanged start|, d
   double growth = 0;           ///< largest root-mean-square node separation at the end, over the
                                ///< displacement of the start

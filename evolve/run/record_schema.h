@@ -35,6 +35,8 @@ CREATE TABLE individuals (generation INTEGER, position INTEGER, id INTEGER NOT N
   PRIMARY KEY (generation, position)) WITHOUT ROWID;
 -- One row per evaluated trial of an individual. cells, created, died: the embryo at the stage end,
 -- counted from the founder; body_cells, springs, triangles: the body; x, y: the final mean position.
+-- Of a trial with several starts: what they amount to together (run/starts.h); steps and what
+-- follows it are of one of them.
 CREATE TABLE outcomes (generation INTEGER, position INTEGER, trial INTEGER, status TEXT NOT NULL,
   distance REAL NOT NULL, x REAL, y REAL, cells INTEGER NOT NULL, created INTEGER NOT NULL,
   died INTEGER NOT NULL, body_cells INTEGER NOT NULL, springs INTEGER NOT NULL,

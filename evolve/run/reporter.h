@@ -20,9 +20,9 @@ struct GenerationReport {
   const Experiment& experiment;
   const PopulationState& population;  ///< the one that was evaluated
   const GenerationResult& result;
-  const BestEver& best;   ///< by eq 6, up to now
-  bool improved = false;  ///< `best` is of this generation
-  int evaluations = 0;    ///< bodies and scenes, over the population
+  const BestEver& best;          ///< by eq 6, up to now
+  bool improved = false;         ///< `best` is of this generation
+  std::int64_t evaluations = 0;  ///< of bodies in scenes from starts, over the population
   double seconds = 0;
 };
 

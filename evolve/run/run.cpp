@@ -22,7 +22,7 @@ void complete_best(const Experiment& experiment, const PopulationState& populati
   Evaluated& evaluated = result.individuals[best];
   const auto& ran = evaluated.evaluation.evaluated;
   if (std::accumulate(ran.begin(), ran.end(), std::size_t{0}) == experiment.trials.size()) return;
-  evaluated = evaluator.evaluate_fully(population.genomes[best], seconds);
+  evaluated = evaluator.evaluate_fully(population.genomes[best], result.generation, seconds);
 }
 
 GenerationResult run_generation(const Experiment& experiment, const PopulationState& population,
@@ -31,8 +31,9 @@ GenerationResult run_generation(const Experiment& experiment, const PopulationSt
   GenerationResult result;
   result.generation = population.generation;
   result.archive_before = search.archive.size();
-  result.individuals = evaluator.evaluate(
-      population.genomes, trials_to_run(experiment, population.generation), seconds.evaluation);
+  result.individuals =
+      evaluator.evaluate(population.genomes, trials_to_run(experiment, population.generation),
+                         population.generation, seconds.evaluation);
   result.work = evaluator.work();
   Stopwatch watch;
   std::vector<Evaluation> evaluations;
@@ -111,9 +112,8 @@ RunSummary run(Record& record, const RunOptions& options) {
     summary.near_step_limit += count_near_step_limit(result);
     summary.seconds += seconds;
     summary.work += result.work;
-    const GenerationReport report{experiment, population,
-                                  result,     state.best,
-                                  improved,   std::accumulate(counts.begin(), counts.end(), 0),
+    const GenerationReport report{experiment, population, result,
+                                  state.best, improved,   count_evaluations(experiment, result),
                                   whole.lap()};
     for (Reporter* reporter : options.reporters) reporter->generation_done(report);
   }

@@ -201,6 +201,17 @@ TEST(AssessSteps, TellsCloseFromSafeAndTooLarge) {
   }
 }
 
+TEST(AutomaticStep, IsNeverLongerThanWhatItDivides) {
+  // Nothing swings: any step would do.
+  Scene scene = automatic(core::land_scene());
+  scene.stiffness = scene.damping = scene.settle_damping = scene.pressure = 0;
+  scene.ground_stiffness = scene.ground_damping = scene.collision_stiffness = 0;
+  scene.run_steps = 1;
+  const Scene chosen = core::with_chosen_steps(disc_body(13), scene, Method::drift_kick_drift);
+  EXPECT_EQ(chosen.step, core::paper_step);
+  EXPECT_EQ(chosen.settle_step, scene.settle_max_steps * core::paper_step);
+}
+
 TEST(AssessSteps, ReachesTheOutcome) {
   const core::Body body = disc_body(37);
   Scene scene = core::water_scene();

@@ -154,10 +154,10 @@ TEST(CheckBody, NamesEveryValueThatIsWrong) {
   body.rest_length[2] = 1e-4;
   body.rest_area[0] = 5e-4;
   const auto faults = check(body);
-  EXPECT_THAT(texts(faults), ElementsAre("period[0]: 0: expected a finite number > 0",
-                                         "period[1]: -1: expected a finite number > 0",
+  EXPECT_THAT(texts(faults), ElementsAre("period[0]: 0: expected a finite number >= 0.001",
+                                         "period[1]: -1: expected a finite number >= 0.001",
                                          "phase[1]: nan: expected a finite number",
-                                         "period[2]: inf: expected a finite number > 0",
+                                         "period[2]: inf: expected a finite number >= 0.001",
                                          "rest_length[2]: 1e-04: expected at least 0.001",
                                          "rest_area[0]: 5e-04: expected at least 0.001"));
   EXPECT_EQ(faults.front().status, Status::bad_input);
@@ -185,6 +185,26 @@ TEST(CheckBody, NonFiniteNodesAreBadInputAndNothingElse) {
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].status, Status::bad_input);
   EXPECT_EQ(faults[0].what, "nodes[1]: [nan, 0.8660254037844386]: expected finite numbers");
+}
+
+TEST(CheckBody, NodesFarAwayAreBadInputAndNothingElse) {
+  Body body = tests::triangle_body();
+  for (double& x : body.x) x += 1e6 - 1;
+  EXPECT_THAT(texts(check(body)), IsEmpty());
+  body.x[1] = 1000000.5;
+  body.y[2] = -1e300;
+  const auto faults = check(body);
+  EXPECT_THAT(texts(faults),
+              ElementsAre(HasSubstr("nodes[1]: [1000000.5, "),
+                          HasSubstr(", -1e+300]: expected within 1e6 of the origin")));
+  EXPECT_EQ(status_of(faults), Status::bad_input);
+}
+
+TEST(CheckBody, APeriodHasALeastValue) {
+  Body body = tests::triangle_body();
+  body.period = {1e-3, 9e-4, 40};
+  EXPECT_THAT(texts(check(body)),
+              ElementsAre("period[1]: 9e-04: expected a finite number >= 0.001"));
 }
 
 TEST(CheckBody, CoincidentNodesAreBadGeometry) {

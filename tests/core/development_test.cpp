@@ -235,11 +235,23 @@ TEST(Development, ANetworkThatIsNotANumberIsReportedAndDisturbsNobody) {
   const std::vector<int> stages = {0, 600, 1200};
   const auto batch = develop(networks, {}, stages, 1);
   EXPECT_EQ(batch[1][0].status, Status::ok);
-  EXPECT_EQ(batch[1][1].status, Status::non_finite);
+  EXPECT_EQ(batch[1][1].status, Status::bad_development);
   EXPECT_EQ(batch[1][1].cell_count(), 0);
-  EXPECT_EQ(batch[1][2].status, Status::non_finite);
+  EXPECT_EQ(batch[1][2].status, Status::bad_development);
   expect_line(batch[0][2], 41);
   expect_line(batch[2][2], 41);
+}
+
+TEST(Development, AnEmbryoWhosePhasesAreNoNumbersIsReported) {
+  const float no_number = std::numeric_limits<float>::quiet_NaN();
+  for (const Out output : {Out::phase, Out::period}) {
+    const Network bad = line().link(output, In::bias, no_number).build();
+    for (const Embryo& embryo : grow(bad, {0, 600})) {
+      EXPECT_EQ(embryo.status, Status::bad_development);
+      EXPECT_EQ(embryo.cell_count(), 0);
+      EXPECT_TRUE(embryo.faces.empty());
+    }
+  }
 }
 
 }  // namespace

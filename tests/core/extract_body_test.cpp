@@ -54,6 +54,9 @@ void expect_proper(const Extraction& extraction, const Embryo& embryo) {
 TEST(ExtractBody, NoCellIsEmpty) {
   EXPECT_EQ(extract_body(Embryo{}).status, Status::empty);
   EXPECT_EQ(extract_body(Embryo{}, 0).status, Status::empty);
+  Embryo failed;
+  failed.status = Status::bad_development;
+  EXPECT_EQ(extract_body(failed).status, Status::bad_development);
 }
 
 TEST(ExtractBody, CellsWithoutTrianglesAreNoBody) {

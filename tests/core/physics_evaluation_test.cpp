@@ -244,5 +244,82 @@ TEST_P(Evaluation, BadBodiesAreRefusedBeforeTheFirstStep) {
   EXPECT_EQ(GetParam().run({}, core::water_scene(), 1, never).status, core::Status::empty);
 }
 
+TEST_P(Evaluation, StepsThatCannotBeTakenAreRefusedBeforeTheFirst) {
+  const auto never = [](const core::Frame&) { FAIL(); };
+  const auto outcome = [&](const core::Body& body, const core::Scene& scene) {
+    const core::Outcome result = GetParam().run(body, scene, 1, never);
+    EXPECT_EQ(result.steps, 0);
+    EXPECT_EQ(result.failed_step, 0);
+    EXPECT_EQ(result.distance, 0);
+    return result;
+  };
+  const auto expect_too_large = [&](const core::Outcome& found, double largest, int node) {
+    EXPECT_EQ(found.status, core::Status::step_too_large);
+    EXPECT_EQ(found.failed_value, largest);
+    EXPECT_EQ(found.failed_index, node);
+  };
+  core::Body body = blob_body(30, 9);
+  core::Scene scene = core::water_scene();
+  // Longer than the run.
+  scene.run_steps = 1;
+  scene.step = 0.21;
+  expect_too_large(outcome(body, scene), 0.2, -1);
+  scene.step = 5;
+  expect_too_large(outcome(body, scene), 0.2, -1);
+  // More than a quarter of a period.
+  body.period[7] = 0.6;
+  body.period[9] = 0.7;
+  scene = core::land_scene();
+  scene.step = 0.151;
+  expect_too_large(outcome(body, scene), 0.15, 7);
+  scene.run_steps = 1;
+  scene.step = 0.3;
+  expect_too_large(outcome(body, scene), 0.15, 7);
+  body.period[7] = 2;
+  body.period[9] = 2;
+  expect_too_large(outcome(body, scene), 0.2, -1);
+  // No step at all, and more than can be counted.
+  for (const double step : {-0.1, std::numeric_limits<double>::quiet_NaN(),
+                            std::numeric_limits<double>::infinity(), 1e-300}) {
+    scene = core::land_scene();
+    scene.step = step;
+    EXPECT_EQ(outcome(body, scene).status, core::Status::bad_input) << step;
+    scene.step = 0.1;
+    scene.settle_step = step;
+    EXPECT_EQ(outcome(body, scene).status, core::Status::bad_input) << step;
+  }
+}
+
+TEST_P(Evaluation, TheLargestStepsAllowedAreTaken) {
+  core::Body body = blob_body(30, 9);
+  std::fill(body.period.begin(), body.period.end(), 0.6);
+  core::Scene scene = core::water_scene();
+  scene.amplitude = 0.01;
+  scene.step = 0.6 / 4;
+  scene.run_steps = 3;
+  EXPECT_EQ(GetParam().run(body, scene, 1, {}).steps, 4);
+  for (const int steps : {1, 2, 3, 6, 7}) {
+    body.period.assign(body.period.size(), 40);
+    scene.stiffness = scene.pressure = 1e-3;  // bears a step of any such length
+    scene.drag = scene.self_collision = false;
+    scene.damping = 0;
+    scene.run_steps = steps;
+    scene.step = 0.2 * steps;
+    EXPECT_EQ(GetParam().run(body, scene, 1, {}).steps, 1) << steps;
+  }
+}
+
+TEST_P(Evaluation, AShortPeriodAndARunOfOneStepLeaveStepsToTake) {
+  core::Body body = blob_body(30, 9);
+  body.period[4] = core::smallest_period;
+  core::Scene scene = core::water_scene();
+  scene.amplitude = 0;
+  scene.step = core::automatic_step;
+  scene.run_steps = 1;
+  EXPECT_EQ(GetParam().run(body, scene, 1, {}).steps, 4000);  // twenty a period
+  body.period[4] = 1e-12;
+  EXPECT_EQ(GetParam().run(body, scene, 1, {}).status, core::Status::bad_input);
+}
+
 }  // namespace
 }  // namespace metamorph::tests

@@ -169,7 +169,7 @@ TEST(BodyFile, NamesEveryFault) {
        {"f: period[1]: \"x\": expected a number"}},
       {"a period out of range",
        with(good, "/period/2", 0),
-       {"f: period[2]: 0: expected a finite number > 0"}},
+       {"f: period[2]: 0: expected a finite number >= 0.001"}},
       {"no phase",
        without("phase"),
        {"f: phase: missing: expected an array of numbers, one per node"}},
@@ -191,7 +191,8 @@ TEST(BodyFile, NamesEveryFault) {
        {"f: rest_area: \"big\": expected an array of numbers"}},
       {"all at once",
        with(with(with(good, "/period/0", -2), "/phase/1", "p"), "/nodes/3", {1, 1}),
-       {"f: phase[1]: \"p\": expected a number", "f: period[0]: -2: expected a finite number > 0",
+       {"f: phase[1]: \"p\": expected a number",
+        "f: period[0]: -2: expected a finite number >= 0.001",
         "f: nodes[3]: [1, 1]: expected at least 0.001 from node 2",
         "f: triangles[1]: [0, 2, 3] with area 0: expected counter-clockwise nodes, area > 0"}},
   };

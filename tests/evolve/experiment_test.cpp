@@ -170,6 +170,7 @@ RC_GTEST_PROP(Experiment, AnyNumbersSurviveTheRoundTrip, ()) {
     }
   }
   // Put right what random numbers contradict.
+  e.development.period_min = std::max(e.development.period_min, 1.0);
   e.development.period_max = std::max(e.development.period_min, e.development.period_max);
   e.search.archive_threshold = std::max(e.search.archive_floor, e.search.archive_threshold);
   e.neat.compatibility_threshold =
@@ -178,6 +179,9 @@ RC_GTEST_PROP(Experiment, AnyNumbersSurviveTheRoundTrip, ()) {
   e.neat.initial_weight = std::min(e.neat.initial_weight, 1000.0);
   e.neat.mutate_weights += 1;
   e.neat.mutate_weights = std::min(e.neat.mutate_weights, 1e6);
+  for (Trial& trial : e.trials) {
+    if (trial.start_displacement == 0) trial.starts_renew = false;
+  }
   Experiment back = parse_experiment(to_toml(e), "again");
   const auto a = all_sections(e), b = all_sections(back);
   RC_ASSERT(a.size() == b.size());
@@ -241,6 +245,25 @@ TEST(Experiment, OverridesReachEveryKindOfKey) {
   EXPECT_EQ(e.seed, 99u);
 }
 
+TEST(Experiment, StartsOfTrials) {
+  const Experiment one = parse_experiment(good, "x.toml");
+  for (const Trial& trial : one.trials) {
+    EXPECT_EQ(trial.starts, 1);
+    EXPECT_FALSE(trial.starts_renew);
+  }
+  const Experiment e =
+      parse_experiment(std::string(good) + "starts = 5\nstarts_renew = true\n", "x.toml",
+                       {parse_override("trials.*.start_displacement=0.01"),
+                        parse_override("trials.adult.starts_combine=least")});
+  EXPECT_EQ(e.trials[0].starts, 1);
+  EXPECT_EQ(e.trials[0].starts_combine, StartsCombine::mean);
+  EXPECT_EQ(e.trials[1].starts, 5);
+  EXPECT_EQ(e.trials[1].starts_combine, StartsCombine::least);
+  EXPECT_TRUE(e.trials[1].starts_renew);
+  for (const Trial& trial : e.trials) EXPECT_EQ(trial.start_displacement, 0.01);
+  EXPECT_EQ(to_toml(parse_experiment(to_toml(e), "again")), to_toml(e));
+}
+
 /// A change to the good file, and the line it must cost.
 struct Bad {
   std::string text;
@@ -296,12 +319,37 @@ TEST(Experiment, EveryFaultGetsItsLine) {
        "of a [scenes.NAME] table"},
       {"name = \"x\"\n[[trials]]\nname = \"a\"\nscene = \"water\"\n",
        "x.toml:2: trials.a: stage is missing"},
+      {g + "starts = 0\n",
+       "x.toml:10: trials.adult.starts = 0: expected a whole number from 1 to 1000"},
+      {g + "starts = 1001\n",
+       "x.toml:10: trials.adult.starts = 1001: expected a whole number from 1 to 1000"},
+      {g + "starts = 2.5\n",
+       "x.toml:10: trials.adult.starts = 2.5: expected a whole number from 1 to 1000"},
+      {g + "start_displacement = -1e-3\n",
+       "x.toml:10: trials.adult.start_displacement = -0.001: expected a number from 0 to 1"},
+      {g + "starts_combine = \"most\"\n",
+       "x.toml:10: trials.adult.starts_combine = \"most\": expected one of \"mean\", \"median\", "
+       "\"least\""},
+      {g + "starts_renew = 1\n",
+       "x.toml:10: trials.adult.starts_renew = 1: expected true or false"},
+      {g + "start = 3\n",
+       "x.toml:10: trials.adult.start = 3: unknown key; did you mean trials.adult.starts?"},
+      {g + "starts = 2\nstart_displacement = 0\n",
+       "x.toml:11: trials.adult.start_displacement = 0: expected more than 0: all starts would be "
+       "one"},
+      {g + "starts_renew = true\nstart_displacement = 0\n",
+       "x.toml:11: trials.adult.start_displacement = 0: expected more than 0: all starts would be "
+       "one"},
       {"name = \"x\"\n[search]\nkind = \"progressive\"\n[[trials]]\nname = \"a\"\nstage = 1\n"
        "scene = \"water\"\n",
        "x.toml:3: search.kind = \"progressive\": expected simple or novelty: progressive search "
        "needs two trials (larva, adult), there are 1"},
       {g + "[development]\nperiod_min = 200\n",
        "x.toml:11: development.period_min = 200: expected at most development.period_max = 120"},
+      {g + "[development]\nperiod_min = 0.6\n",
+       "x.toml: scenes.water.step = 0.2: expected at most development.period_min / 4 = 0.15"},
+      {g + "[scenes.water]\nstep = 1\nrun_steps = 4\nramp_steps = 1\n",
+       "x.toml:11: scenes.water.step = 1: expected at most scenes.water.run_steps * 0.2 = 0.8"},
       {g + "[neat]\nspecies_max = 3\n",
        "x.toml: neat.species_min = 5: expected at most neat.species_max = 3"},
       {g + "[neat]\nmutate_weights = 0\n",

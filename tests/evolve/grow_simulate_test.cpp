@@ -246,6 +246,56 @@ TEST_F(Program, SimulateWarnsOfStepsNearTheLimit) {
   EXPECT_THAT(refused.out, HasSubstr("step_too_large"));
 }
 
+TEST_F(Program, SimulateRefusesStepsThatNoBodyBears) {
+  const core::Body disc = tests::disc_body(19);
+  expect_fault("simulate disc.json --dt 10 --steps 1",
+               "disc.json: step 10: expected at most 0.2, the length of the run");
+  core::Body fast = disc;
+  fast.period[3] = 0.6;
+  write_body(here() / "fast.json", fast, Overwrite::no);
+  const std::string fault =
+      "fast.json: step 0.2: expected at most 0.15, a quarter of the period of node 3";
+  expect_fault("simulate disc.json fast.json", fault);
+  expect_fault("simulate fast.json --trajectory t.csv", fault);
+  EXPECT_FALSE(std::filesystem::exists(here() / "t.csv"));
+  EXPECT_EQ(run("simulate fast.json --steps 5 --dt 0.15").exit_code, 0);
+  EXPECT_EQ(run("simulate fast.json --steps 5 --dt auto").exit_code, 0);
+  // Too short to be an oscillation.
+  std::string text = tests::text_of(here() / "disc.json");
+  text.replace(text.find("40", text.find("period")), 2, "1e-300");
+  write_file(here() / "instant.json", text, Overwrite::no);
+  expect_fault("simulate instant.json --dt auto",
+               "instant.json: period[0]: 1e-300: expected a finite number >= 0.001");
+}
+
+TEST_F(Program, SimulateTellsLongWorkBeforeItStarts) {
+  // Springs of five times their length tear the body apart long before the run is over.
+  core::Body body = tests::disc_body(19);
+  for (double& length : body.rest_length) length = 5;
+  write_body(here() / "tense.json", body, Overwrite::no);
+  const auto result = run("simulate tense.json --dt 1e-4 --steps 100000000 --threads 2");
+  EXPECT_EQ(result.exit_code, 0);
+  // 2e7 time units, 42 springs, 1.5 ns for each; a single body keeps a single thread busy.
+  EXPECT_THAT(result.err_lines(),
+              ElementsAre("long work: 2e+11 steps per body, about 3 h 30 min on 1 thread"));
+  EXPECT_THAT(result.out, HasSubstr("failed at step "));
+  EXPECT_EQ(run("simulate tense.json --dt 1e-4 --steps 1000000").err, "");
+}
+
+TEST_F(Program, ABodyThatMeetsItselfIsRefused) {
+  // A C with a tooth whose tip lies on the other jaw.
+  core::Body body;
+  body.x = {0, 4, 4, 1, 1, 4, 4, 0, 2};
+  body.y = {0, 0, 1, 1, 3, 3, 4, 4, 1};
+  body.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 7}, {7, 4, 5}, {7, 5, 6}, {4, 8, 5}};
+  core::set_rest_from_nodes(body);
+  tests::set_wave(body);
+  write_body(here() / "knot.json", body, Overwrite::no);
+  expect_fault("simulate knot.json",
+               "knot.json: outline edges [2, 3] and [4, 8]: node 8 lies on both: expected an "
+               "outline that neither crosses nor touches itself");
+}
+
 TEST_F(Program, SimulatePrintsWhatTheLibrarySays) {
   const core::Body body = tests::disc_body(19);
   core::Scene scene = core::land_scene();

@@ -223,6 +223,24 @@ TEST_F(ProgramTest, WrongInputGetsALineAndLeavesNothing) {
   }
 }
 
+TEST_F(ProgramTest, DevelopmentsThatBecomeNoNumbersAreCountedAsSuch) {
+  // Steps far beyond what cells on such springs bear.
+  std::ofstream(path("stiff.toml"))
+      << "name = \"stiff\"\ngenerations = 1\n[neat]\npopulation = 100\n"
+         "[development]\nstiffness = 1e6\nstep = 10\n"
+         "[[trials]]\nname = \"larva\"\nstage = 600\nscene = \"water\"\n"
+         "[scenes.water]\nrun_steps = 10\n";
+  const Ended ended = run({"evolve", path("stiff.toml"), "--out", path("stiff")});
+  EXPECT_EQ(ended.exit_code, 0) << ended.output;
+  EXPECT_THAT(ended.output, HasSubstr(", bad_development "));
+  const auto counts = RunReader(path("stiff")).status_counts();
+  ASSERT_TRUE(counts.contains("bad_development"));
+  const std::string counted = "bad_development " + std::to_string(counts.at("bad_development"));
+  EXPECT_THAT(ended.output, HasSubstr(counted));
+  EXPECT_THAT(run({"info", path("stiff")}).output, HasSubstr(counted));
+  EXPECT_THAT(ended.output, HasSubstr(std::to_string(counts.at("bad_development")) + " failed"));
+}
+
 TEST_F(ProgramTest, InfoAndExportTellWhatWasRecorded) {
   ASSERT_EQ(run({"evolve", experiment(SearchKind::simple), "--out", path("a"), "--seed", "5",
                  "--generations", "3", "--threads", "1"})

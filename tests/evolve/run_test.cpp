@@ -18,29 +18,13 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using tests::contents;
 using tests::lines_of;
+using tests::run_in_pieces;
 using tests::run_whole;
 using tests::TemporaryDirectory;
 using tests::tiny_experiment;
 
 constexpr int die_output = core::network_inputs + 2;
 constexpr SearchKind kinds[] = {SearchKind::simple, SearchKind::progressive, SearchKind::novelty};
-
-/// Runs `experiment`, stopping after every generation in `stops` and resuming.
-void run_in_pieces(const std::filesystem::path& directory, const Experiment& experiment,
-                   std::vector<int> stops) {
-  stops.push_back(experiment.generations);
-  int done = 0;
-  for (const int stop : stops) {
-    const std::unique_ptr<Record> record = std::filesystem::exists(directory)
-                                               ? Record::resume(directory, 1)
-                                               : std::make_unique<Record>(directory, experiment, 1);
-    int left = stop - done;
-    const RunSummary summary = run(*record, {1, [&] { return left-- == 0; }, {}});
-    EXPECT_EQ(summary.generations_done, stop);
-    EXPECT_EQ(summary.interrupted, stop < experiment.generations);
-    done = stop;
-  }
-}
 
 TEST(Run, RecordsWhatItWasAskedFor) {
   const TemporaryDirectory directory;
@@ -202,7 +186,7 @@ TEST(Run, ChampionsReplayToTheRecordedBits) {
     for (int generation = 0; generation < 6; ++generation) {
       const Champion champion = reader.champion(generation);
       EvaluationSeconds seconds;
-      const Evaluated again = evaluator.evaluate_fully(champion.genome, seconds);
+      const Evaluated again = evaluator.evaluate_fully(champion.genome, generation, seconds);
       EXPECT_EQ(scalar_fitness(again.evaluation), champion.eq6) << generation;
       for (std::size_t t = 0; t < e.trials.size(); ++t) {
         EXPECT_EQ(again.evaluation.trials[t].distance, champion.distances[t]);
@@ -240,14 +224,14 @@ TEST(Evaluator, RememberedResultsAreThoseOfAFreshEvaluation) {
   Evaluator remembering(e, 1);
   EvaluationSeconds seconds;
   const std::vector<std::uint8_t> both = {1, 1}, larva = {1, 0};
-  const auto first = remembering.evaluate(population.genomes, both, seconds);
+  const auto first = remembering.evaluate(population.genomes, both, 0, seconds);
   // Half old, half new, in another order; then other trials, for which nothing may be reused.
   PopulationState other = first_generation(e.neat, 6);
   std::vector<Genome> mixed(population.genomes.rbegin(), population.genomes.rbegin() + 6);
   mixed.insert(mixed.end(), other.genomes.begin(), other.genomes.begin() + 6);
   for (const auto& trials : {both, larva}) {
-    const auto a = remembering.evaluate(mixed, trials, seconds);
-    const auto b = Evaluator(e, 1).evaluate(mixed, trials, seconds);
+    const auto a = remembering.evaluate(mixed, trials, 0, seconds);
+    const auto b = Evaluator(e, 1).evaluate(mixed, trials, 0, seconds);
     for (std::size_t i = 0; i < mixed.size(); ++i) {
       EXPECT_EQ(a[i].evaluation.evaluated, trials);
       EXPECT_EQ(a[i].evaluation.created, b[i].evaluation.created);
@@ -317,11 +301,11 @@ TEST(Evaluator, ThreadsAndIdenticalWorkDoneOnceChangeNoBit) {
   const auto n = static_cast<std::int64_t>(distinct.size());
   for (const int threads : {1, 2}) {
     Evaluator evaluator(e, threads);
-    const auto results = evaluator.evaluate(genomes, both, seconds);
+    const auto results = evaluator.evaluate(genomes, both, 0, seconds);
     for (std::size_t i = 0; i < genomes.size(); ++i) {
       // A new evaluator and one genome: nothing there to be the same as.
       EXPECT_EQ(text_of(results[i]),
-                text_of(Evaluator(e, 1).evaluate({&genomes[i], 1}, both, seconds).front()))
+                text_of(Evaluator(e, 1).evaluate({&genomes[i], 1}, both, 0, seconds).front()))
           << i;
     }
     EXPECT_EQ(evaluator.work().individuals, 4 * n);
@@ -332,8 +316,8 @@ TEST(Evaluator, ThreadsAndIdenticalWorkDoneOnceChangeNoBit) {
 
     // In the next generation the originals are known, and so are the bodies of the neutral ones.
     Evaluator other(e, threads);
-    other.evaluate(distinct, both, seconds);
-    const auto later = other.evaluate(genomes, both, seconds);
+    other.evaluate(distinct, both, 0, seconds);
+    const auto later = other.evaluate(genomes, both, 0, seconds);
     for (std::size_t i = 0; i < genomes.size(); ++i) {
       EXPECT_EQ(text_of(later[i]), text_of(results[i])) << i;
     }
@@ -348,7 +332,7 @@ TEST(Evaluator, TooManyCellsCostFitness) {
   const PopulationState population = first_generation(e.neat, 5);
   EvaluationSeconds seconds;
   e.created_limit = 10;
-  const auto results = Evaluator(e, 1).evaluate(population.genomes, {1, 1}, seconds);
+  const auto results = Evaluator(e, 1).evaluate(population.genomes, {1, 1}, 0, seconds);
   bool above = false, below = false;
   for (const Evaluated& one : results) {
     EXPECT_EQ(one.evaluation.penalty, one.evaluation.created > 10 ? 0.1 : 1.0);

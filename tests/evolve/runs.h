@@ -3,9 +3,11 @@
 // Helpers for tests of runs and their records.
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -70,6 +72,24 @@ inline evolve::RunSummary run_whole(const std::filesystem::path& directory,
                                     const evolve::Experiment& experiment, int threads = 1) {
   evolve::Record record(directory, experiment, threads);
   return evolve::run(record, {threads, {}, {}});
+}
+
+/// Runs `experiment`, stopping after every generation in `stops` and resuming.
+inline void run_in_pieces(const std::filesystem::path& directory,
+                          const evolve::Experiment& experiment, std::vector<int> stops) {
+  stops.push_back(experiment.generations);
+  int done = 0;
+  for (const int stop : stops) {
+    const std::unique_ptr<evolve::Record> record =
+        std::filesystem::exists(directory)
+            ? evolve::Record::resume(directory, 1)
+            : std::make_unique<evolve::Record>(directory, experiment, 1);
+    int left = stop - done;
+    const evolve::RunSummary summary = evolve::run(*record, {1, [&] { return left-- == 0; }, {}});
+    EXPECT_EQ(summary.generations_done, stop);
+    EXPECT_EQ(summary.interrupted, stop < experiment.generations);
+    done = stop;
+  }
 }
 
 }  // namespace metamorph::tests

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/body.h"
+#include "core/outcome.h"
+#include "evolve/experiment/experiment.h"
+
+namespace metamorph::evolve {
+
+/// True if the trial runs the body in this start from other places than it has. Start 0 is the body
+/// as it is, unless every generation is to have starts of its own.
+constexpr bool is_displaced(const Trial& trial, int start) {
+  return start > 0 || trial.starts_renew;
+}
+
+/// The body of a start of the trial: displaced by numbers that depend on the seed, the start, the
+/// index of the node and, where starts are renewed, the generation. All bodies of a generation are
+/// displaced alike, so equal bodies stay equal.
+core::Body start_of(const core::Body& body, const Trial& trial, int start, std::uint64_t seed,
+                    int generation);
+
+/// What the outcomes of a trial's starts, in their order, amount to; of one start its outcome, to
+/// the bit. The starts are ranked, failures first, then by distance, of equals the earlier first:
+///   least   the outcome of the first;
+///   median  that of the middle one, of two middle ones the lower;
+///   mean    that of the median, but with the mean distance of all starts, where a failed one
+///           counts 0, and the mean of mean_position over those that did not fail; if the median
+///           failed, its outcome as it is.
+/// So a body fails where its median (or with `least` any) start fails, and has then distance 0.
+/// Precondition: there is a start.
+core::Outcome combine_starts(std::span<const core::Outcome> outcomes, StartsCombine rule);
+
+}  // namespace metamorph::evolve
