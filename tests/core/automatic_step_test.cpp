@@ -205,7 +205,7 @@ TEST(AutomaticStep, IsNeverLongerThanWhatItDivides) {
   // Nothing swings: any step would do.
   Scene scene = automatic(core::land_scene());
   scene.stiffness = scene.damping = scene.settle_damping = scene.pressure = 0;
-  scene.ground_stiffness = scene.ground_damping = scene.collision_stiffness = 0;
+  scene.collision_stiffness = 0;
   scene.run_steps = 1;
   const Scene chosen = core::with_chosen_steps(disc_body(13), scene, Method::drift_kick_drift);
   EXPECT_EQ(chosen.step, core::paper_step);

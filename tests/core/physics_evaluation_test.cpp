@@ -95,6 +95,7 @@ Film slide(const Simulator& simulator, double mu) {
   core::Scene scene = lasting(core::slope_scene(), 400);
   scene.amplitude = 0;
   scene.settle_quiet_steps = 0;
+  scene.step = 0.1;
   scene.friction = mu;
   return film(simulator, brick(), scene, 2000);
 }
@@ -152,8 +153,8 @@ TEST_P(Evaluation, OutcomesSayWhatWasSeen) {
   const core::Body body = blob_body(50, 7);
   for (core::Scene scene :
        {core::water_scene(), core::land_scene(), core::land_right_scene(), core::slope_scene()}) {
-    scene = lasting(scene, 100);
-    const int steps = static_cast<int>(std::lround(100 / scene.step));
+    scene = lasting(scene, 60);
+    const int steps = static_cast<int>(std::lround(60 / scene.step));
     const Film result = film(GetParam(), body, scene, steps);
     const core::Outcome& outcome = result.outcome;
     ASSERT_EQ(outcome.status, core::Status::ok) << scene.name;
@@ -161,7 +162,7 @@ TEST_P(Evaluation, OutcomesSayWhatWasSeen) {
     const auto& first = result.pictures[0];
     const auto& last = result.pictures[1];
     EXPECT_EQ(first.time, 0);
-    EXPECT_TRUE(within(last.time / 100 - 1, tolerance::sum(round_off_64, 4)));
+    EXPECT_TRUE(within(last.time / 60 - 1, tolerance::sum(round_off_64, 4)));
     const double dx = mean(last.x) - mean(first.x), dy = mean(last.y) - mean(first.y);
     const double rounding = 64 * GetParam().round_off;
     EXPECT_TRUE(within(outcome.mean_position[0] - dx, rounding));
@@ -209,14 +210,14 @@ TEST_P(Evaluation, ObservingChangesNoBit) {
 }
 
 TEST_P(Evaluation, TimesOutWhereNothingComesToRest) {
-  core::Scene scene = lasting(core::land_scene(), 20);
+  core::Scene scene = lasting(core::land_scene(), 30);
   scene.settle_speed = 1e-300;
   scene.settle_max_steps = 300;
   const core::Outcome outcome =
       GetParam().run(disc_body(13), scene, 100, [](const core::Frame&) {});
   EXPECT_EQ(outcome.status, core::Status::not_settled);
   EXPECT_DOUBLE_EQ(outcome.settle_time, 60);
-  EXPECT_EQ(outcome.steps, 300 + 200);  // 60 time units of 0.2, then 20 of 0.1
+  EXPECT_EQ(outcome.steps, 300 + 200);  // 60 time units of 0.2, then 30 of 0.15
 }
 
 TEST_P(Evaluation, AFailureIsDataWithDistanceZero) {
