@@ -61,13 +61,11 @@ class Watched {
   template <class Motion>
   int move_and_hold(Motion&& to) {
     check();
+    std::vector<Pair> held = list();
     step(to);
-    list_.held(view_.now, view_.next, view_.inverse_mass);
-    const std::set<std::array<std::uint32_t, 3>> listed = [&] {
-      std::set<std::array<std::uint32_t, 3>> lanes;
-      for (const Pair& pair : list()) lanes.insert(pair.lanes);
-      return lanes;
-    }();
+    if (!list_.held(view_.now, view_.next, view_.inverse_mass)) held = list();
+    std::set<std::array<std::uint32_t, 3>> listed;
+    for (const Pair& pair : held) listed.insert(pair.lanes);
     int met = 0;
     for (const Pair& pair : pairs_) {
       double gap = std::numeric_limits<double>::infinity();
