@@ -119,14 +119,13 @@ TEST_P(Agreement, OnEveryCoefficient) {
     with(scene, &core::Scene::step, 0.05);
     with(scene, &core::Scene::self_collision, false);
     with(crowded(scene), &core::Scene::collision_stiffness, 1.0);
+    with(crowded(scene), &core::Scene::collision_least_gap, 0.5);
   }
   with(water, &core::Scene::drag, false);
   with(water, &core::Scene::drag_normal, 0.6);
   with(water, &core::Scene::drag_tangential, 0.3);
   with(land, &core::Scene::gravity, 0.03);
   with(land, &core::Scene::slope_degrees, -5.0);
-  with(land, &core::Scene::ground_stiffness, 3.0);
-  with(land, &core::Scene::ground_damping, 0.3);
   with(land, &core::Scene::friction, 0.0);
   with(land, &core::Scene::friction, 0.4);
   with(land, &core::Scene::settle_damping, 0.5);

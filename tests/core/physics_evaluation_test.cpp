@@ -67,19 +67,22 @@ TEST_P(Evaluation, WithoutSurroundingsABodyCannotMoveItself) {
   EXPECT_GT(active, 0.01);
 }
 
-TEST_P(Evaluation, ARestingBodyPressesItsWeightOnTheGround) {
+TEST_P(Evaluation, ABodyComesToRestOnTheGroundAndNeverSinksIntoIt) {
   core::Scene scene = lasting(core::land_scene(), 400);
   scene.amplitude = 0;
   for (const int nodes : {12, 40}) {  // flat ones: a disc would roll
-    const Film result = film(GetParam(), strip_body(nodes), scene, 4000);
+    const Film result = film(GetParam(), strip_body(nodes), scene, 20);
     EXPECT_EQ(result.outcome.status, core::Status::ok);
+    // Ground stops a drift where it reaches 0: rounding of the places and speeds of that step.
+    double deepest = 0;
+    for (const auto& picture : result.pictures) deepest = std::min(deepest, lowest(picture.y));
+    EXPECT_TRUE(within(deepest, 8 * GetParam().round_off));
     const auto& last = result.pictures.back();
-    double load = 0;
-    for (const double y : last.y) load += std::max(-y, 0.0) * scene.ground_stiffness;
-    const double weight = scene.gravity * static_cast<double>(last.y.size());
-    // The bouncing on the ground has faded: the contacts' damping rate is c_n/2.
-    EXPECT_TRUE(within(load / weight - 1, 1e-6 + 64 * GetParam().round_off));
-    EXPECT_GT(lowest(last.y), -0.2);
+    double resting = 0, fastest = 0;
+    for (const double y : last.y) resting += y < 8 * GetParam().round_off;
+    for (const double v : last.vy) fastest = std::max(fastest, std::fabs(v));
+    EXPECT_GE(resting, 2);
+    EXPECT_TRUE(within(fastest, 1e-7 + 64 * GetParam().round_off));
   }
 }
 
@@ -92,6 +95,7 @@ Film slide(const Simulator& simulator, double mu) {
   core::Scene scene = lasting(core::slope_scene(), 400);
   scene.amplitude = 0;
   scene.settle_quiet_steps = 0;
+  scene.step = 0.1;
   scene.friction = mu;
   return film(simulator, brick(), scene, 2000);
 }
@@ -149,8 +153,8 @@ TEST_P(Evaluation, OutcomesSayWhatWasSeen) {
   const core::Body body = blob_body(50, 7);
   for (core::Scene scene :
        {core::water_scene(), core::land_scene(), core::land_right_scene(), core::slope_scene()}) {
-    scene = lasting(scene, 100);
-    const int steps = static_cast<int>(std::lround(100 / scene.step));
+    scene = lasting(scene, 60);
+    const int steps = static_cast<int>(std::lround(60 / scene.step));
     const Film result = film(GetParam(), body, scene, steps);
     const core::Outcome& outcome = result.outcome;
     ASSERT_EQ(outcome.status, core::Status::ok) << scene.name;
@@ -158,7 +162,7 @@ TEST_P(Evaluation, OutcomesSayWhatWasSeen) {
     const auto& first = result.pictures[0];
     const auto& last = result.pictures[1];
     EXPECT_EQ(first.time, 0);
-    EXPECT_TRUE(within(last.time / 100 - 1, tolerance::sum(round_off_64, 4)));
+    EXPECT_TRUE(within(last.time / 60 - 1, tolerance::sum(round_off_64, 4)));
     const double dx = mean(last.x) - mean(first.x), dy = mean(last.y) - mean(first.y);
     const double rounding = 64 * GetParam().round_off;
     EXPECT_TRUE(within(outcome.mean_position[0] - dx, rounding));
@@ -206,14 +210,14 @@ TEST_P(Evaluation, ObservingChangesNoBit) {
 }
 
 TEST_P(Evaluation, TimesOutWhereNothingComesToRest) {
-  core::Scene scene = lasting(core::land_scene(), 20);
+  core::Scene scene = lasting(core::land_scene(), 30);
   scene.settle_speed = 1e-300;
   scene.settle_max_steps = 300;
   const core::Outcome outcome =
       GetParam().run(disc_body(13), scene, 100, [](const core::Frame&) {});
   EXPECT_EQ(outcome.status, core::Status::not_settled);
   EXPECT_DOUBLE_EQ(outcome.settle_time, 60);
-  EXPECT_EQ(outcome.steps, 300 + 200);  // 60 time units of 0.2, then 20 of 0.1
+  EXPECT_EQ(outcome.steps, 300 + 200);  // 60 time units of 0.2, then 30 of 0.15
 }
 
 TEST_P(Evaluation, AFailureIsDataWithDistanceZero) {

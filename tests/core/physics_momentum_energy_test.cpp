@@ -146,48 +146,6 @@ TEST(SlowEnergy, DriftKickDriftHasNoTrendOver4000) {
   EXPECT_TRUE(within(growth(record), 0.25));
 }
 
-/// Largest energy deviation while the jaws are driven into each other, and the smallest gap of a
-/// pair over its threshold.
-struct Bite {
-  double deviation = 0, smallest_gap = 1;
-};
-
-Bite bite(double h) {
-  core::Scene scene = vacuum_scene();
-  scene.self_collision = true;
-  ReferenceSystem system(jaws_body(), scene);
-  for (std::size_t i = 0; i < system.x.size(); ++i)
-    if (system.x[i] > 2.5) system.vy[i] = system.y[i] > 3 ? -0.3 : 0.3;
-  const double start = system.potential_energy(0) + system.kinetic_energy();
-  Bite result;
-  for (long n = 0; n < std::lround(60 / h); ++n) {
-    system.step(ReferenceMethod::drift_kick_drift, 0, h);
-    result.deviation =
-        std::max(result.deviation,
-                 std::fabs((system.potential_energy(0) + system.kinetic_energy()) / start - 1));
-    const auto pairs = system.collision_pairs();
-    for (std::size_t p = 0; p < pairs.threshold.size(); ++p) {
-      if (pairs.threshold[p] == 0) continue;
-      const double gap =
-          kernels::reference::closest_point(pairs.nodes[p / pairs.edges.size()],
-                                            pairs.edges[p % pairs.edges.size()], system.x, system.y)
-              .gap;
-      result.smallest_gap = std::min(result.smallest_gap, gap / pairs.threshold[p]);
-    }
-  }
-  return result;
-}
-
-TEST(SelfCollision, IsElasticAndKeepsThingsApart) {
-  // The force has a kink where contact begins, so that the second-order energy error of the
-  // leapfrog need not fall by a full four per halving; it must fall.
-  const Bite coarse = bite(0.1), fine = bite(0.05);
-  EXPECT_LT(coarse.smallest_gap, 0.9);  // they did touch
-  EXPECT_GT(coarse.smallest_gap, 0.0);
-  EXPECT_TRUE(within(coarse.deviation, leapfrog_energy_error(0.1)));
-  EXPECT_TRUE(within(fine.deviation, coarse.deviation / 2));
-}
-
 TEST(FreeFall, MovesEveryNodeAlikeWhateverTheBodyIs) {
   core::Scene scene = core::land_scene();
   scene.amplitude = 0;

@@ -22,9 +22,9 @@ struct Places {
 };
 
 /// Where a swimmer's nodes are after `duration`.
-Places swim(ReferenceMethod method, double h, double duration) {
-  core::Scene scene = core::water_scene();
-  scene.self_collision = false;
+Places swim(ReferenceMethod method, double h, double duration, bool in_contact = false) {
+  core::Scene scene = in_contact ? crowded(core::water_scene()) : core::water_scene();
+  scene.self_collision = in_contact;
   ReferenceSystem system(strip_body(16), scene);
   for (long n = 0; n < std::lround(duration / h); ++n)
     system.step(method, static_cast<double>(n) * h, h);
@@ -51,6 +51,20 @@ TEST_P(Order, InWaterByHalving) {
   EXPECT_TRUE(within(order - GetParam().order, tolerance::order))
       << "order " << order << ", errors " << error[0] << " " << error[1] << " " << error[2] << " "
       << error[3];
+}
+
+TEST_P(Order, InWaterInContactWithItselfByHalving) {
+  // Repulsion has a kink where it begins, which leaves a method its second order at most.
+  constexpr double duration = 80;
+  static const Places exact = swim(ReferenceMethod::drift_kick_drift, 0.003125, duration, true);
+  std::vector<double> error;
+  for (const double h : {0.2, 0.1, 0.05, 0.025}) {
+    const Places places = swim(GetParam().method, h, duration, true);
+    error.push_back(rms_distance(places.x, places.y, exact.x, exact.y));
+  }
+  const double order = std::log2(error.front() / error.back()) / 3;
+  EXPECT_GT(order, std::min(GetParam().order, 2) - 2 * tolerance::order)
+      << "errors " << error[0] << " " << error[1] << " " << error[2] << " " << error[3];
 }
 
 /// The mean position of a body that walks on flat land for 100 time units.

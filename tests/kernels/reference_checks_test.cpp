@@ -70,9 +70,9 @@ TEST(Checks, NamesTheFastestNode) {
   EXPECT_EQ(health.index, 2);
   EXPECT_EQ(health.value, 5);
   square.points.vx[1] = 0;
-  square.points.vy[2] = -3;
-  EXPECT_EQ(square.examine(0.1).fault, ref::Fault::none);
-  EXPECT_EQ(square.examine(0.2).fault, ref::Fault::speed);  // 0.6 d in one step
+  square.points.vy[2] = -3.5;
+  EXPECT_EQ(square.examine(0.2).fault, ref::Fault::none);
+  EXPECT_EQ(square.examine(0.25).fault, ref::Fault::speed);  // 0.875 d in one step
 }
 
 TEST(Checks, NamesTheNodeThatIsNotFinite) {

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "core/body.h"
+#include "core/scene.h"
+#include "core/solid_pairs.h"
 #include "kernels/reference/actuation.h"
 #include "kernels/reference/pressure.h"
 #include "kernels/reference/self_collision.h"
@@ -20,27 +22,24 @@ namespace {
 struct Tangle {
   explicit Tangle(std::uint64_t seed) : body(blob_body(40, seed)), points(body.x.size()) {
     core::RandomStream random(core::Purpose::test, seed, 1, 0);
-    outline = core::outline_of(body.triangles);
     for (std::size_t i = 0; i < points.x.size(); ++i) {
       points.x[i] = body.x[i] + 0.1 * (2 * random.uniform() - 1);
       points.y[i] = body.y[i] + 0.1 * (2 * random.uniform() - 1);
       points.vx[i] = 2 * random.uniform() - 1;
       points.vy[i] = 2 * random.uniform() - 1;
     }
-    for (const ref::Edge& edge : outline) outline_nodes.push_back(edge[0]);
-    threshold.resize(outline_nodes.size() * outline.size());
     // A wide gap, so that many pairs repel.
-    ref::set_collision_thresholds(outline_nodes, outline, 2.0, body.x, body.y, threshold);
+    core::Scene crowded;
+    crowded.collision_gap = 2.0;
+    for (const core::SolidPair& pair : core::solid_pairs(body, crowded))
+      pairs.push_back({pair.node, pair.edge, pair.threshold});
   }
 
   ref::PressureCells cells() const { return {body.triangles, body.rest_area, 0.15}; }
-  ref::CollisionPairs pairs() const { return {outline_nodes, outline, threshold}; }
 
   core::Body body;
   Points points;
-  std::vector<ref::Edge> outline;
-  std::vector<int> outline_nodes;
-  std::vector<double> threshold;
+  std::vector<ref::CollisionPair> pairs;
 };
 
 struct InternalForce {
@@ -76,11 +75,9 @@ std::vector<InternalForce> internal_forces() {
        }},
       {"SelfCollision",
        [](const Tangle& t, const ref::Nodes& n, const ref::Forces& f) {
-         ref::add_collision_forces(t.pairs(), 2.0, n, f);
+         ref::add_collision_forces(t.pairs, 2.0, n, f);
        },
-       [](const Tangle& t, const ref::Nodes& n) {
-         return ref::collision_energy(t.pairs(), 2.0, n);
-       }},
+       [](const Tangle& t, const ref::Nodes& n) { return ref::collision_energy(t.pairs, 2.0, n); }},
   };
 }
 

@@ -27,8 +27,7 @@ double damped_pair_error(const Integrator& integrator, double h) {
   Points pair(2);
   pair.x[1] = rest + x0;
   double largest = 0;
-  const ForceLaw law = [&](const ref::Nodes& nodes, double, const ref::Forces& sums,
-                           std::span<double>) {
+  const ForceLaw law = [&](const ref::Nodes& nodes, double, const ref::Forces& sums) {
     ref::add_spring_forces(springs, length, k, c, nodes, sums);
   };
   for (long n = 1; n <= std::lround(20 / h); ++n) {
@@ -66,10 +65,9 @@ TEST_P(EveryIntegrator, FallsFreely) {
   Points point(1);
   point.y[0] = y0;
   point.vy[0] = v0;
-  integrate(point, GetParam(), t, h,
-            [](const ref::Nodes&, double, const ref::Forces& sums, std::span<double>) {
-              ref::add_weight({0, -g}, 1.0, sums);
-            });
+  integrate(point, GetParam(), t, h, [](const ref::Nodes&, double, const ref::Forces& sums) {
+    ref::add_weight({0, -g}, 1.0, sums);
+  });
   const double late = GetParam().order == 1 ? g * h * t / 2 : 0;
   const double rounding = tolerance::drift(round_off_64, y0 + v0 * t, t / h);
   // Drift-kick-drift and the Runge-Kutta sums round their h and weights once each per step.
@@ -77,20 +75,49 @@ TEST_P(EveryIntegrator, FallsFreely) {
   EXPECT_TRUE(within(point.vy[0] - (v0 - g * t), rounding));
 }
 
-TEST(DriftKickDrift, RemembersTheAccelerationWithFriction) {
+TEST(DriftKickDrift, RemembersTheAccelerationWithImpulses) {
   Points point(1);
   point.vx[0] = 1;
-  const ForceLaw law = [](const ref::Nodes&, double, const ref::Forces& sums,
-                          std::span<double> normal) {
+  const ForceLaw law = [](const ref::Nodes&, double, const ref::Forces& sums) {
     sums.x[0] += 0.25;
     sums.y[0] += 0.5;
-    normal[0] = 2;
   };
-  integrate(point, drift_kick_drift, 0.5, 0.5, law, 1.0, 0.125);
-  EXPECT_EQ(point.ax[0], 0.25 - 0.125 * 2);
-  EXPECT_EQ(point.ay[0], 0.5);
-  EXPECT_EQ(point.vx[0], 1 + 0.5 * 0.25 - 0.125 * 0.5 * 2);
+  const Keep keep = [](double h, std::span<const double> x, std::span<const double>,
+                       std::span<double> vx, std::span<double> vy) {
+    EXPECT_EQ(h, 0.5);        // to the middle of the next step
+    EXPECT_EQ(x[0], 0.25);    // from that of this one
+    EXPECT_EQ(vx[0], 1.125);  // after the kick
+    vx[0] -= 0.0625;
+    vy[0] = 0;
+  };
+  integrate(point, drift_kick_drift, 0.5, 0.5, law, keep);
+  EXPECT_EQ(point.ax[0], 0.25 - 0.0625 / 0.5);
+  EXPECT_EQ(point.ay[0], 0);
+  EXPECT_EQ(point.vx[0], 1 + 0.5 * 0.25 - 0.0625);
   EXPECT_EQ(point.x[0], 0.25 + 0.25 * point.vx[0]);
+}
+
+TEST_P(EveryIntegrator, AsksOnceAStepWhereADriftByItLeads) {
+  // Where what is kept apart would be a step after the places it is told.
+  Points point(1);
+  point.x[0] = 4;
+  point.vx[0] = 1;
+  int asked = 0;
+  const Keep keep = [&](double h, std::span<const double> x, std::span<const double>,
+                        std::span<double> vx, std::span<double>) {
+    ++asked;
+    EXPECT_EQ(h, 0.125);
+    EXPECT_GE(x[0], 4);
+    EXPECT_LE(x[0], 4.0625);
+    EXPECT_DOUBLE_EQ(vx[0], 1);  // Runge-Kutta's weights are rounded
+    vx[0] -= 2;
+  };
+  integrate(
+      point, GetParam(), 0.125, 0.125, [](const ref::Nodes&, double, const ref::Forces&) {}, keep);
+  EXPECT_EQ(asked, 1);
+  EXPECT_DOUBLE_EQ(point.vx[0], -1);
+  // Drift-kick-drift has drifted half of the way there before.
+  EXPECT_DOUBLE_EQ(point.x[0], GetParam().name == "DriftKickDrift" ? 4 : 3.875);
 }
 
 }  // namespace
