@@ -40,7 +40,8 @@ Scene slope_scene() {
   Scene scene = land_right_scene();
   scene.name = "slope";
   scene.slope_degrees = 17.0;
-  scene.friction = 2.0;  // with less hardly anything learns to climb
+  scene.friction = 2.0;       // with less hardly anything learns to climb
+  scene.settle_range = 10.0;  // what rolls down will never rest
   return scene;
 }
 

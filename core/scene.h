@@ -59,7 +59,7 @@ struct Scene {
   double settle_speed = 0.01;    ///< quiet below this speed, d per time unit
   int settle_quiet_steps = 800;  ///< paper steps that must be quiet
   int settle_max_steps = 6000;   ///< paper steps; then start anyway
-  double settle_range = 10.0;    ///< d; a body that has slid or rolled so far starts anyway, too
+  double settle_range = 1e9;     ///< d; a body that has slid or rolled so far starts anyway, too
 };
 
 /// Distance by a rule of a displacement (dx, dy), d.
