@@ -76,8 +76,8 @@ void ReferenceSystem::step(ReferenceMethod method, double t, double h) {
   };
   const auto keep = [this](double drift, std::span<const double> from_x,
                            std::span<const double> from_y, std::span<double> along_x,
-                           std::span<double> along_y) {
-    ref::keep_apart(solid(), drift, from_x, from_y, along_x, along_y);
+                           std::span<double> along_y, std::span<double> since_vy) {
+    ref::keep_apart(solid(), drift, from_x, from_y, along_x, along_y, since_vy);
   };
   switch (method) {
     case ReferenceMethod::symplectic_euler:

@@ -27,7 +27,7 @@ double safe_step_limit(const Body& body, const Scene& scene, double damping, Met
 /// Share of the largest stable step that a step may take without a warning. The limit is that of
 /// the body at rest; measured in actuated scenes it is lower (NUMERICS section 3).
 inline constexpr double water_margin = 0.9;     ///< measured: 0.94 to 1.0 of the limit at rest
-inline constexpr double land_margin = 0.5;      ///< 0.585 to 1.0: impacts squeeze triangles
+inline constexpr double land_margin = 0.6;      ///< 0.66 on: impacts squeeze triangles
 inline constexpr double settling_margin = 0.9;  ///< nothing swings, and what moves is damped
 
 /// What steps a scene takes, while it settles or in the run.

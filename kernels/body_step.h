@@ -83,7 +83,8 @@ struct Records {
 /// The scheme is leapfrog in its staggered form. A record holds the midpoint x_n + h/2 v_n and the
 /// velocity extrapolated there, v_n + h/2 a_(n-1); the kick gives v_(n+1) = v_n + h a_n, and the
 /// next midpoint is x_mid + h v_(n+1): two half drifts in one. The acceleration that extrapolates
-/// is that of the velocity, ground and friction included: what they hold does not move. With
+/// is that of the velocity, friction included: what friction holds does not move. What the ground
+/// has stopped it holds: it has none upwards. With
 /// `extrapolate` 0 and records that hold (x_n, v_n) the same loop is symplectic Euler. `n` counts
 /// steps for the oscillators.
 ///
@@ -220,26 +221,15 @@ inline void step_body(const BodyView<T>& body, const StepCoefficients<T>& c, Tur
 
     const Pack inverse_mass = Pack::load(body.inverse_mass + node_base);
     const Pack ax = fx * inverse_mass, ay = fy * inverse_mass;
-    const Pack old_vx = Pack::load(body.vx + node_base), old_vy = Pack::load(body.vy + node_base);
-    Pack vx = fma(h, ax, old_vx), vy = fma(h, ay, old_vy);
+    const Pack old_vx = Pack::load(body.vx + node_base);
+    Pack vx = fma(h, ax, old_vx), vy = fma(h, ay, Pack::load(body.vy + node_base));
     Pack next_vx = fma(extrapolate, ax, vx), next_vy = fma(extrapolate, ay, vy);
     if constexpr (terms.ground) {
-#ifdef SOFT_GROUND
-      {
-        const Pack push = fma(Pack(T(-0.8)), self.vy, -(Pack(T(4)) * self.y));
-        const Pack normal = select(self.y < zero, max(push, zero), zero);
-        vy = fma(h * normal, inverse_mass, vy);
-        vx = after_friction(vx, friction * h * normal * inverse_mass);
-        next_vx = fma(extrapolate_share, vx - old_vx, vx);
-        next_vy = fma(extrapolate_share, vy - old_vy, vy);
-      }
-#else
       const Pack falling = vy;
       vy = max(falling, least_rise(self.y, inverse_step));
       vx = after_friction(vx, friction * (vy - falling));
       next_vx = fma(extrapolate_share, vx - old_vx, vx);
-      next_vy = fma(extrapolate_share, vy - old_vy, vy);
-#endif
+      next_vy = select(vy > falling, vy, next_vy);
     }
     vx.store(body.vx + node_base);
     vy.store(body.vy + node_base);

@@ -55,12 +55,11 @@ inline Stopped<T> stop_approaches(const Approach<T>* begin, const Approach<T>* e
   const auto push = [&](std::uint32_t n, T dvx, T dvy) {
     const T old_vx = vx[n], old_vy = vy[n];
     T new_vx = old_vx + dvx, new_vy = old_vy + dvy;
-    if (s.ground) {
-      const T least = -std::max(now[n].y, T(0)) * s.inverse_step;
-      if (new_vy < least) {
-        new_vx = after_friction(new_vx, s.friction * (least - new_vy));
-        new_vy = least;
-      }
+    const T least = -std::max(now[n].y, T(0)) * s.inverse_step;
+    const bool grounded = s.ground && new_vy < least;
+    if (grounded) {
+      new_vx = after_friction(new_vx, s.friction * (least - new_vy));
+      new_vy = least;
     }
     const T change_x = new_vx - old_vx, change_y = new_vy - old_vy;
     vx[n] = new_vx;
@@ -68,7 +67,7 @@ inline Stopped<T> stop_approaches(const Approach<T>* begin, const Approach<T>* e
     next[n].x = std::fma(s.step, new_vx, now[n].x);
     next[n].y = std::fma(s.step, new_vy, now[n].y);
     next[n].vx += std::fma(s.extrapolate_share, change_x, change_x);
-    next[n].vy += std::fma(s.extrapolate_share, change_y, change_y);
+    next[n].vy = grounded ? new_vy : next[n].vy + std::fma(s.extrapolate_share, change_y, change_y);
     stopped.fastest2 = std::max(stopped.fastest2, new_vx * new_vx + new_vy * new_vy);
     stopped.change += std::abs(change_x) + std::abs(change_y);
   };

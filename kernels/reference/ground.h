@@ -13,12 +13,13 @@ inline double after_friction(double v, double change) {
 
 /// A node at height y meets the solid ground y = 0 before a drift of h: it may come down to the
 /// ground within the drift, and sinks no further where it is not above; the impulse that this takes
-/// bounds friction. Velocities are changed.
-inline void meet_ground(double y, double h, double friction, double& vx, double& vy) {
+/// bounds friction. Velocities are changed; returns whether they were.
+inline bool meet_ground(double y, double h, double friction, double& vx, double& vy) {
   const double least = -std::max(y, 0.0) / h;
-  if (vy >= least) return;
+  if (vy >= least) return false;
   vx = after_friction(vx, friction * (least - vy));
   vy = least;
+  return true;
 }
 
 }  // namespace metamorph::kernels::reference

@@ -7,8 +7,9 @@
 
 /// One step of size h from time t, the same signature for every method. `force` is called as
 /// force(nodes, time, forces) and overwrites the sums. `keep` is called between kick and drift as
-/// keep(h, x, y, vx, vy), with the positions that a drift by h starts from: it may change the
-/// velocities by impulses (solid ground, friction, solid outlines; see kernels/reference/solid.h).
+/// keep(h, x, y, vx, vy, since_vy), with the positions that a drift by h starts from: it may change
+/// the velocities by impulses (solid ground, friction, solid outlines) and the upward velocities
+/// from which accelerations are counted, where there are such; see kernels/reference/solid.h.
 namespace metamorph::kernels::reference {
 
 /// What a step changes; all [nodes].
@@ -44,7 +45,7 @@ void symplectic_euler(const State& s, const Workspace& w, const Step& step, Forc
     s.vx[i] += step.h * (w.fx[i] / step.mass);
     s.vy[i] += step.h * (w.fy[i] / step.mass);
   }
-  keep(step.h, s.x, s.y, s.vx, s.vy);
+  keep(step.h, s.x, s.y, s.vx, s.vy, {});
   for (std::size_t i = 0; i < s.x.size(); ++i) {
     s.x[i] += step.h * s.vx[i];
     s.y[i] += step.h * s.vy[i];
@@ -73,7 +74,7 @@ void drift_kick_drift(const State& s, const Workspace& w, const Step& step, Forc
     s.vx[i] += step.h * (w.fx[i] / step.mass);
     s.vy[i] += step.h * (w.fy[i] / step.mass);
   }
-  keep(step.h, w.x, w.y, s.vx, s.vy);
+  keep(step.h, w.x, w.y, s.vx, s.vy, w.vy);
   for (std::size_t i = 0; i < s.x.size(); ++i) {
     s.ax[i] = (s.vx[i] - w.vx[i]) / step.h;
     s.ay[i] = (s.vy[i] - w.vy[i]) / step.h;
@@ -93,7 +94,7 @@ void velocity_verlet(const State& s, const Workspace& w, const Step& step, Force
     s.vx[i] += half * (w.fx[i] / step.mass);
     s.vy[i] += half * (w.fy[i] / step.mass);
   }
-  keep(step.h, s.x, s.y, s.vx, s.vy);
+  keep(step.h, s.x, s.y, s.vx, s.vy, {});
   for (std::size_t i = 0; i < s.x.size(); ++i) {
     s.x[i] += step.h * s.vx[i];
     s.y[i] += step.h * s.vy[i];
@@ -116,7 +117,7 @@ void apply_slopes(const State& s, const Workspace& w, const Step& step, Keep&& k
     s.vx[i] += step.h * w.dvx[i] - w.dx[i];
     s.vy[i] += step.h * w.dvy[i] - w.dy[i];
   }
-  keep(step.h, s.x, s.y, w.dx, w.dy);
+  keep(step.h, s.x, s.y, w.dx, w.dy, {});
   for (std::size_t i = 0; i < s.x.size(); ++i) {
     s.x[i] += step.h * w.dx[i];
     s.y[i] += step.h * w.dy[i];

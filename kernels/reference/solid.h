@@ -35,9 +35,12 @@ inline double least_separation(double room, double separation, double h) {
 /// is nearest now and, along the same direction, where it will be after the drift. All nodes have
 /// one mass, so it does not count.
 inline void keep_apart(const Solid& solid, double h, std::span<const double> x,
-                       std::span<const double> y, std::span<double> vx, std::span<double> vy) {
+                       std::span<const double> y, std::span<double> vx, std::span<double> vy,
+                       std::span<double> since_vy = {}) {
   const auto meet = [&](std::size_t i) {
-    if (solid.ground) meet_ground(y[i], h, solid.friction, vx[i], vy[i]);
+    if (solid.ground && meet_ground(y[i], h, solid.friction, vx[i], vy[i]) && !since_vy.empty()) {
+      since_vy[i] = vy[i];
+    }
   };
   double fastest = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
