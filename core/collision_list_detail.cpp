@@ -236,7 +236,8 @@ bool CollisionList<T>::held(const kernels::NodeRecord<T>* now, const kernels::No
     longest2 = std::max(longest2, dx * dx + dy * dy);
   }
   const kernels::Lanes<T> way(std::sqrt(longest2) * static_cast<T>(room));
-  const T limit = std::max(way[0], static_cast<T>(narrow_skin / 2));
+  // Beyond the way, so that a look from where the step began does not forget it.
+  const T limit = std::max(way[0] * static_cast<T>(room), static_cast<T>(narrow_skin / 2));
   renew_blocks(now);
   renew_pairs(now, limit);
   block_watch_.advance(way);

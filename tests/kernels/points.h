@@ -36,11 +36,12 @@ struct Points {
 using ForceLaw = std::function<void(const ref::Nodes&, double t, const ref::Forces&)>;
 
 /// Impulses between kick and drift, see kernels/reference/integrators.h.
-using Keep = std::function<void(double h, std::span<const double> x, std::span<const double> y,
-                                std::span<double> vx, std::span<double> vy)>;
+using Keep =
+    std::function<void(double h, std::span<const double> x, std::span<const double> y,
+                       std::span<double> vx, std::span<double> vy, std::span<double> since_vy)>;
 
 inline void keep_nothing(double, std::span<const double>, std::span<const double>,
-                         std::span<double>, std::span<double>) {}
+                         std::span<double>, std::span<double>, std::span<double>) {}
 
 struct Integrator {
   std::string name;

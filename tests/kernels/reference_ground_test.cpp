@@ -23,9 +23,9 @@ constexpr double g = 0.02, h = 0.1;
 /// Ground alone, with friction.
 Keep ground(double mu) {
   return [mu](double drift, std::span<const double> x, std::span<const double> y,
-              std::span<double> vx, std::span<double> vy) {
+              std::span<double> vx, std::span<double> vy, std::span<double> since_vy) {
     ref::keep_apart({.pairs = {}, .least_gap = 0, .ground = true, .friction = mu}, drift, x, y, vx,
-                    vy);
+                    vy, since_vy);
   };
 }
 
@@ -117,7 +117,7 @@ TEST(Ground, StopsWhatWouldSinkAndNothingElse) {
   const std::vector<double> after = {-1, -2, -2, 0, 0, 1, 0, 1};
   const std::vector<double> x(y.size());
   std::vector<double> vx(y.size(), 1.0), vy = before;
-  ground(0.25)(0.25, x, y, vx, vy);
+  ground(0.25)(0.25, x, y, vx, vy, {});
   EXPECT_EQ(vy, after);
   // Friction takes a quarter of what the ground gave, and only then.
   for (std::size_t i = 0; i < y.size(); ++i) EXPECT_EQ(vx[i], 1 - 0.25 * (after[i] - before[i]));

@@ -83,7 +83,7 @@ TEST(DriftKickDrift, RemembersTheAccelerationWithImpulses) {
     sums.y[0] += 0.5;
   };
   const Keep keep = [](double h, std::span<const double> x, std::span<const double>,
-                       std::span<double> vx, std::span<double> vy) {
+                       std::span<double> vx, std::span<double> vy, std::span<double>) {
     EXPECT_EQ(h, 0.5);        // to the middle of the next step
     EXPECT_EQ(x[0], 0.25);    // from that of this one
     EXPECT_EQ(vx[0], 1.125);  // after the kick
@@ -104,7 +104,7 @@ TEST_P(EveryIntegrator, AsksOnceAStepWhereADriftByItLeads) {
   point.vx[0] = 1;
   int asked = 0;
   const Keep keep = [&](double h, std::span<const double> x, std::span<const double>,
-                        std::span<double> vx, std::span<double>) {
+                        std::span<double> vx, std::span<double>, std::span<double>) {
     ++asked;
     EXPECT_EQ(h, 0.125);
     EXPECT_GE(x[0], 4);
