@@ -110,6 +110,7 @@ class Evaluation {
     }
     if (quiet < wanted) outcome_.status = Status::not_settled;
     system_.set_settling(false);
+    if (options_.method == ReferenceMethod::drift_kick_drift) system_.meet_ground(h_ / 2);
     return true;
   }
 

@@ -67,6 +67,12 @@ void ReferenceSystem::forces(const ref::Nodes& nodes, double t, const ref::Force
   if (settling_) ref::add_node_drag(scene_.settle_drag, nodes, sums);
 }
 
+void ReferenceSystem::meet_ground(double h) {
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    if (scene_.ground) ref::meet_ground(y[i], h, 0, vx[i], vy[i]);
+  }
+}
+
 void ReferenceSystem::step(ReferenceMethod method, double t, double h) {
   const ref::Workspace work{scratch_[0], scratch_[1], scratch_[2], scratch_[3], scratch_[4],
                             scratch_[5], scratch_[6], scratch_[7], scratch_[8], scratch_[9]};

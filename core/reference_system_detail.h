@@ -28,6 +28,9 @@ class ReferenceSystem {
   /// Settling: no actuation, settle_damping and settle_drag. Otherwise (at first) the run itself.
   void set_settling(bool settling) { settling_ = settling; }
 
+  /// Stops what would come below the ground in a drift by h, as every step does before its own.
+  void meet_ground(double h);
+
   /// One step of size h from time t (time units since the start of actuation).
   void step(ReferenceMethod method, double t, double h);
 

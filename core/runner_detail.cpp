@@ -15,6 +15,7 @@ constexpr std::int64_t check_interval = 8;
 // The outline is kept whole by what stops approaches; this looks whether it was.
 constexpr std::int64_t outline_interval = 96;
 constexpr std::uint64_t speed_interval = 8;
+constexpr int most_rounds = 4;  ///< of stopping in a step: more would help only what is no number
 
 std::int64_t steps_of(int paper_steps, double step) {
   return std::llround(paper_steps * paper_step / step);
@@ -112,8 +113,7 @@ bool Runner<T>::stop() {
                                        coefficients_.extrapolate / coefficients_.step,
                                        scene_->ground, coefficients_.friction};
   Pack speed2 = fastest2_, moved2 = fastest2_;
-  bool again = false;
-  while (true) {
+  for (int round = 0; round < most_rounds; ++round) {
     // What was pushed may be faster than all before, or elsewhere: then more may be near.
     collisions_.advance(moved2, coefficients_.step);
     const bool held = collisions_.held(view_.now, view_.next, view_.inverse_mass);
@@ -122,17 +122,17 @@ bool Runner<T>::stop() {
     if (!expected) expect_speed(std::sqrt(largest(speed2)));
     if (!held || !expected) {
       near_ = meet(T(0), state_.extra_fx.data(), state_.extra_fy.data()).near;
-    } else if (again) {
+    } else if (round > 0) {
       return true;
     }
     const kernels::Approach<T>* const begin = collisions_.approaches();
     const kernels::Stopped<T> stopped = kernels::stop_approaches(
         begin, begin + near_, stop_step, view_.now, view_.next, view_.vx, view_.vy);
-    if (!stopped.any) return again;
+    if (!stopped.any) return round > 0;
     speed2 = Pack(stopped.fastest2);
     moved2 = Pack(stopped.change * stopped.change);
-    again = true;
   }
+  return true;
 }
 
 /// The largest squared speeds now, each lane for itself.
@@ -191,6 +191,10 @@ void Runner<T>::end_settling() {
   coefficients_ = coefficients_of<T>(*scene_, method_);
   for (int l = 0; l < view_.nodes; ++l) {
     kernels::NodeRecord<T>& record = view_.now[l];
+    if (scene_->ground && coefficients_.extrapolate > 0) {  // which holds in half a step as well
+      const T least = -std::max(record.y, T(0)) / coefficients_.extrapolate;
+      record.vy = view_.vy[l] = std::max(view_.vy[l], least);
+    }
     record.x = std::fma(coefficients_.extrapolate, view_.vx[l], record.x);
     record.y = std::fma(coefficients_.extrapolate, view_.vy[l], record.y);
   }

@@ -72,13 +72,8 @@ TEST(AutomaticStep, KeepsTheMarginAndMeetsTheDuration) {
           EXPECT_LE(chosen.settle_step,
                     core::settling_margin * limit_of(body, scene, method, true));
           double safe = core::safe_step_limit(body, scene, damping, method);
-          // A pair pushed apart by k_s = 2 allows h^2 4 = 4, contact with the ground (k_n = 4, c_n
-          // = 0.8) h^2 4 + s h 0.8 = 4.
-          safe = std::min(safe, 1.0);
-          if (scene.ground) {
-            const double b = method == Method::drift_kick_drift ? 3.2 : 1.6;
-            safe = std::min(safe, (-b + std::sqrt(b * b + 64)) / 8);
-          }
+          // A pair pushed apart by k_s = 4 allows h^2 8 = 4.
+          safe = std::min(safe, std::sqrt(0.5));
           expect_divides(run_steps * core::paper_step, chosen.step,
                          std::min(margin * safe, 40.0 / 20));
           EXPECT_EQ(core::assess_steps(body, chosen, method).use, StepUse::safe);
