@@ -233,8 +233,8 @@ TEST_F(Program, SimulateWarnsOfStepsNearTheLimit) {
               ElementsAre(AllOf(StartsWith("warning: disc.json: step "),
                                 HasSubstr("is 93 % of the largest stable one"),
                                 HasSubstr("expected at most 90 %; --dt auto"))));
-  EXPECT_THAT(simulate(0.55 * water, "--scene land").err_lines(),
-              ElementsAre(AllOf(HasSubstr("is 55 % of"), HasSubstr("expected at most 50 %"))));
+  EXPECT_THAT(simulate(0.65 * water, "--scene land").err_lines(),
+              ElementsAre(AllOf(HasSubstr("is 65 % of"), HasSubstr("expected at most 60 %"))));
   // Many bodies, one line.
   EXPECT_THAT(simulate(0.93 * water, "disc.json disc.json").err_lines(),
               ElementsAre(HasSubstr("and so for 3 of 3 bodies")));
