@@ -151,6 +151,14 @@ class Reader {
 
   void unknown(const std::string& where, const std::string& path, const std::string& value,
                const Section* own = nullptr) {
+    // The right key in the wrong table, and keys that were.
+    const auto last = [](const std::string& p) { return p.substr(p.rfind('.') + 1); };
+    if (last(path) == "ground_stiffness" || last(path) == "ground_damping") {
+      faults_.push_back(fmt::format(
+          "{}: {} = {}: the ground is solid since version 0.2: expected no such key", where, path,
+          value));
+      return;
+    }
     std::vector<std::string> paths = {"trials", "scenes"};
     std::vector<Section> sections = all_sections(experiment_);
     if (own != nullptr) sections.insert(sections.begin(), *own);  // not in the experiment yet
@@ -159,8 +167,6 @@ class Reader {
       for (const Key& key : section.keys) paths.push_back(join_path(section.path, key.name));
     }
     std::string nearest = nearest_name(path, paths);
-    // The right key in the wrong table.
-    const auto last = [](const std::string& p) { return p.substr(p.rfind('.') + 1); };
     for (const std::string& candidate : paths) {
       if (nearest.empty() && last(candidate) == last(path)) nearest = candidate;
     }

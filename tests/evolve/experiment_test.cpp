@@ -278,6 +278,9 @@ TEST(Experiment, EveryFaultGetsItsLine) {
       {"population = 5\n" + g,
        "x.toml:1: population = 5: unknown key; did you mean neat.population?"},
       {"qqqqqqqq = 5\n" + g, "x.toml:1: qqqqqqqq = 5: unknown key"},
+      {g + "[scenes.land]\nground_stiffness = 4\n",
+       "x.toml:11: scenes.land.ground_stiffness = 4: the ground is solid since version 0.2: "
+       "expected no such key"},
       {"generations = \"many\"\n" + g,
        "x.toml:1: generations = \"many\": expected a whole number from 1 to 10000000"},
       {"generations = 1.5\n" + g,
