@@ -19,7 +19,7 @@ mkdir -p "$tables" "$charts"
 for study in predictability solidity ablation settling stability work-precision-water \
   work-precision-land-third work-precision-land work-precision-slope; do
   start=$SECONDS
-  "$folder/metamorph_accuracy" "$study" "$random" bench/genomes/*.json \
+  "$folder/metamorph_accuracy" "$study" "$random" bench/genomes/solid-*.json \
     bench/accuracy/genomes/*.json >"$tables/$study.csv" || exit 1
   say "$study took $(took $((SECONDS - start)))"
 done

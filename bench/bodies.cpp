@@ -60,7 +60,7 @@ core::Body lattice_disc(int cells) {
 std::vector<evolve::Genome> evolved_genomes() {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(METAMORPH_BENCH_GENOMES)) {
-    if (entry.path().filename().string().starts_with("evolved-")) files.push_back(entry.path());
+    if (entry.path().filename().string().starts_with("solid-")) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   std::vector<evolve::Genome> genomes;

@@ -13,7 +13,8 @@ namespace metamorph::bench {
 /// running over it, all periods 40. Nothing of it touches itself.
 core::Body lattice_disc(int cells);
 
-/// Evolved genomes of a novelty search, shipped as bench/genomes/evolved-*.json.
+/// Evolved genomes of bodies that are solid, shipped as
+/// bench/genomes/solid-*.json: the best of runs water to land, simple (1 to 5) and novelty search.
 std::vector<evolve::Genome> evolved_genomes();
 
 /// Bodies of the evolved genomes at a step of development; those that have none are left out.

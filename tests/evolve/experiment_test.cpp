@@ -90,6 +90,8 @@ TEST(Experiment, ShippedFilesAreThoseOfTheModel) {
     for (std::size_t t = 0; t < e.trials.size(); ++t) {
       EXPECT_EQ(e.trials[t].stage, expected.trials[t].first);
       EXPECT_EQ(e.trials[t].scene, expected.trials[t].second);
+      // On land selection would keep lucky throws; water forgets how a body started.
+      EXPECT_EQ(e.trials[t].starts_renew, e.scene_of(e.trials[t]).ground);
     }
   }
 }
