@@ -154,9 +154,9 @@ class Reader {
     // The right key in the wrong table, and keys that were.
     const auto last = [](const std::string& p) { return p.substr(p.rfind('.') + 1); };
     if (last(path) == "ground_stiffness" || last(path) == "ground_damping") {
-      faults_.push_back(fmt::format(
-          "{}: {} = {}: the ground is solid since version 0.2: expected no such key", where, path,
-          value));
+      faults_.push_back(
+          fmt::format("{}: {} = {}: the ground is solid since version 0.2: expected no such key",
+                      where, path, value));
       return;
     }
     std::vector<std::string> paths = {"trials", "scenes"};
