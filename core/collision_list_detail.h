@@ -78,7 +78,6 @@ class CollisionList {
   T gap_ = 0;
   T spare_ = 0;  ///< half of what the gap exceeds the least by: what each of a pair may use up
   int groups_ = 0;
-  kernels::Lanes<T> way_{T(0)};   ///< of the last step, each lane for itself
   std::span<const Index> nodes_;  ///< of the outline's lanes
   std::size_t edges_ = 0;
   // Outline nodes along the contour, so that those of a group are near each other.

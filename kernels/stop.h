@@ -76,9 +76,9 @@ inline Stopped<T> stop_approaches(const Approach<T>* begin, const Approach<T>* e
     for (const Approach<T>* pair = begin; pair != end; ++pair) {
       const std::uint32_t p = pair->node, a = pair->first, b = pair->second;
       const T ex = now[b].x - now[a].x, ey = now[b].y - now[a].y;
-      const T ux = vx[b] - vx[a], uy = vy[b] - vy[a];  // of the edge's second end
-      const T wx = vx[p] - vx[a],
-              wy = vy[p] - vy[a];  // of the node; both as its first end sees them
+      // As the edge's first end sees them: the velocities of its second end and of the node.
+      const T ux = vx[b] - vx[a], uy = vy[b] - vy[a];
+      const T wx = vx[p] - vx[a], wy = vy[p] - vy[a];
       const T nx = pair->nx, ny = pair->ny, along = nx * wx + ny * wy, turning = nx * ux + ny * uy;
       // Nowhere along the edge too fast: as at nearly all times.
       const T allowed = -std::max(pair->room, T(0)) * s.inverse_step;
