@@ -79,18 +79,23 @@ class Watched {
     return met;
   }
 
+  /// The motion of a node by `way` and of an edge by as much, straight towards each other; all
+  /// others stay.
+  static auto towards_each_other(const Pair& pair, const kernels::reference::ClosestPoint& point,
+                                 double way) {
+    const double dx = way * point.dx / point.gap, dy = way * point.dy / point.gap;
+    return [lanes = pair.lanes, dx, dy](int lane, double px, double py) {
+      const auto l = static_cast<std::uint32_t>(lane);
+      const double share = l == lanes[2] ? -1 : l == lanes[0] || l == lanes[1] ? 1 : 0;
+      return std::pair{px + share * dx, py + share * dy};
+    };
+  }
+
   /// Takes a step of `way` with a node and of as much with an edge, straight towards each other.
   /// All others stay. Returns how far apart they are.
   double close_in(const Pair& pair, double way) {
     const auto point = closest_point(pair, 0);
-    const double dx = way * point.dx / point.gap, dy = way * point.dy / point.gap;
-    move([&](int lane, double px, double py) {
-      const auto l = static_cast<std::uint32_t>(lane);
-      const double share = l == pair.lanes[2]                         ? -1
-                           : l == pair.lanes[0] || l == pair.lanes[1] ? 1
-                                                                      : 0;
-      return std::pair{px + share * dx, py + share * dy};
-    });
+    move(towards_each_other(pair, point, way));
     return point.gap;
   }
 
@@ -98,14 +103,7 @@ class Watched {
   double rush_in(const Pair& pair, double way) {
     const auto point = closest_point(pair, 0);
     if (point.gap < 2 * way + 1) return 0;
-    const double dx = way * point.dx / point.gap, dy = way * point.dy / point.gap;
-    move_and_hold([&](int lane, double px, double py) {
-      const auto l = static_cast<std::uint32_t>(lane);
-      const double share = l == pair.lanes[2]                         ? -1
-                           : l == pair.lanes[0] || l == pair.lanes[1] ? 1
-                                                                      : 0;
-      return std::pair{px + share * dx, py + share * dy};
-    });
+    move_and_hold(towards_each_other(pair, point, way));
     return point.gap;
   }
 
