@@ -9,8 +9,8 @@
 #include "bench/peak.h"
 #include "bench/ring_opponents.h"
 #include "bench/scalar_opponents.h"
-#include "core/locomotion.h"
-#include "core/reference_simulation.h"
+#include "metamorph/locomotion.h"
+#include "metamorph/reference.h"
 
 namespace metamorph::bench {
 namespace {

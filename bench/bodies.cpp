@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "core/extract_body.h"
 #include "evolve/files/genome_file.h"
+#include "metamorph/extraction.h"
 
 namespace metamorph::bench {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "core/body.h"
-#include "core/development.h"
-#include "core/scene.h"
 #include "evolve/genetics/genome.h"
+#include "metamorph/body.h"
+#include "metamorph/development.h"
+#include "metamorph/scene.h"
 
 namespace metamorph::bench {
 

@@ -9,15 +9,15 @@
 
 #include "bench/bodies.h"
 #include "bench/measure.h"
-#include "core/body_batch_detail.h"
-#include "core/delaunay.h"
-#include "core/development.h"
-#include "core/extract_body.h"
-#include "core/links.h"
-#include "core/neighbourhood_detail.h"
-#include "core/triangulation_repair.h"
+#include "core/development/delaunay.h"
+#include "core/development/links.h"
+#include "core/development/neighbourhood.h"
+#include "core/development/triangulation_repair.h"
+#include "core/locomotion/body_batch.h"
 #include "kernels/cell_mechanics.h"
 #include "kernels/network_inference.h"
+#include "metamorph/development.h"
+#include "metamorph/extraction.h"
 
 namespace metamorph::bench {
 namespace {

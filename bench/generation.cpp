@@ -10,11 +10,11 @@
 
 #include "bench/bodies.h"
 #include "bench/measure.h"
-#include "core/random.h"
 #include "evolve/experiment/experiment_file.h"
 #include "evolve/run/evaluate.h"
 #include "evolve/search/novelty.h"
 #include "evolve/search/search.h"
+#include "metamorph/random.h"
 
 namespace metamorph::bench {
 namespace {
@@ -105,7 +105,7 @@ void generation(benchmark::State& state, const std::string& larva, const std::st
 evolve::PopulationState lived_population(const evolve::NeatSettings& settings,
                                          std::vector<double>& fitness) {
   evolve::PopulationState state = evolve::first_generation(settings, 1);
-  core::RandomStream random(core::Purpose::test, 1, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, 1, 0, 0);
   fitness.resize(population);
   for (int generation = 0; generation < 50; ++generation) {
     for (double& value : fitness) value = random.uniform();
@@ -134,7 +134,7 @@ void reproduction(benchmark::State& state) {
 
 void novelty(benchmark::State& state) {
   const evolve::SearchSettings settings;
-  core::RandomStream random(core::Purpose::test, 2, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, 2, 0, 0);
   const auto behaviour = [&] {
     std::vector<double> place(4);
     for (double& value : place) value = 50 * random.triangular();

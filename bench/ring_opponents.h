@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/body_batch_detail.h"
-#include "core/scene_terms_detail.h"
+#include "core/locomotion/body_batch.h"
+#include "core/locomotion/scene_terms.h"
 #include "kernels/body_step.h"
 
 // The library's own step with other ways of fetching neighbours: lane = node and the same

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "core/random.h"
 #include "kernels/elementary.h"
+#include "metamorph/random.h"
 
 namespace metamorph::bench {
 namespace {
@@ -137,7 +137,7 @@ Interleaved<T, lanes>::Interleaved(const core::Body& body, const core::Scene& sc
     // Nodes in another order in every lane; the first keeps the body's own.
     std::vector<int> place(node_count_);
     std::iota(place.begin(), place.end(), 0);
-    core::RandomStream random(core::Purpose::test, 1, 0, static_cast<std::uint32_t>(l));
+    evolve::RandomStream random(evolve::Purpose::test, 1, 0, static_cast<std::uint32_t>(l));
     for (std::size_t i = node_count_; l > 0 && i > 1; --i) {
       std::swap(place[i - 1], place[random.below(static_cast<std::uint32_t>(i))]);
     }

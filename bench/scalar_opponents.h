@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/body.h"
-#include "core/scene.h"
+#include "metamorph/body.h"
+#include "metamorph/scene.h"
 
 namespace metamorph::bench {
 

@@ -10,8 +10,8 @@
 #include "bench/bodies.h"
 #include "bench/measure.h"
 #include "bench/peak.h"
-#include "core/development.h"
-#include "core/locomotion.h"
+#include "metamorph/development.h"
+#include "metamorph/locomotion.h"
 
 namespace metamorph::bench {
 namespace {

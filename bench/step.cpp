@@ -5,7 +5,7 @@
 
 #include "bench/bodies.h"
 #include "bench/measure.h"
-#include "core/locomotion.h"
+#include "metamorph/locomotion.h"
 
 namespace metamorph::bench {
 namespace {

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/body.h"
-#include "core/random.h"
+#include "metamorph/body.h"
+#include "metamorph/random.h"
 
 namespace metamorph::tests {
 
@@ -137,7 +137,7 @@ inline core::Body jaws_body() {
 /// (at most 0.15, which leaves every triangle counter-clockwise), random periods in [30, 120] and
 /// phases in (-pi, pi).
 inline core::Body blob_body(int nodes, std::uint64_t seed, double jitter = 0.15) {
-  core::RandomStream random(core::Purpose::test, seed, 0, static_cast<std::uint32_t>(nodes));
+  evolve::RandomStream random(evolve::Purpose::test, seed, 0, static_cast<std::uint32_t>(nodes));
   std::set<LatticePoint> points = {{0, 0}, {1, 0}, {0, 1}};
   while (static_cast<int>(points.size()) < nodes) {
     // Candidates: free points whose neighbours in the body form one run of two or more, which

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/development.h"
-#include "core/random.h"
+#include "metamorph/development.h"
+#include "metamorph/random.h"
 
 namespace metamorph::tests {
 
@@ -22,7 +22,7 @@ using Point = std::pair<double, double>;
 
 /// Moves every point by up to `amount` in x and y: no four cells on a circle, no three on a line.
 inline std::vector<Point> jittered(std::vector<Point> points, double amount = 1e-3) {
-  core::RandomStream random(core::Purpose::test, 4711, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, 4711, 0, 0);
   for (auto& [x, y] : points) {
     x += amount * random.triangular();
     y += amount * random.triangular();

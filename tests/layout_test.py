@@ -15,9 +15,25 @@ MAY_INCLUDE = {
     "tests": {"tests", "bench", "evolve", "core", "kernels"},
     "bench": {"bench", "evolve", "core", "kernels"},
 }
+# Folders of core, and which others each may include. A public header stands with the folder whose
+# files implement it.
+CORE_MAY_INCLUDE = {
+    "body": set(),
+    "development": {"body"},
+    "locomotion": {"body"},
+    "reference": {"body", "locomotion"},
+}
+PUBLIC_OF_CORE = {
+    "body": ("body", "status", "threads"),
+    "development": ("development", "extraction", "network"),
+    "locomotion": ("automatic_step", "locomotion", "motion", "outcome", "scene", "stability",
+                   "step_refusal"),
+    "reference": ("reference",),
+}
 TOP_LEVEL_FOLDERS = set(ROOMS)
 TOP_LEVEL_FILES = {"CMakeLists.txt", "CMakePresets.json", "CMakeUserPresets.json", "README.md",
-                   "LICENSE", "CHANGELOG.md"}
+                   "LICENSE", "CHANGELOG.md", "CITATION.cff", "CONTRIBUTING.md", "Doxyfile",
+                   "pyproject.toml"}
 BUILT = {"build", "runs", "compile_commands.json"}  # made locally, ignored by git
 LONG_FILE = 450  # lines
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
@@ -27,25 +43,78 @@ def sources(room):
     return sorted(p for p in room.rglob("*") if p.suffix in (".h", ".cpp"))
 
 
-def include_faults(name, room):
-    """Lines of one include against the arrows or not written as "room/file.h"."""
-    public_core = name == "core"
+def public_headers(root):
+    """Of each public header, as it is included: the room that has it."""
+    return {f"metamorph/{path.name}": name for name in ROOMS
+            for path in (root / name / "include" / "metamorph").glob("*.h")}
+
+
+def includes(path):
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        match = INCLUDE.match(line)
+        if match:
+            yield number, *match.groups()
+
+
+def include_faults(name, room, public):
+    """Lines of one include against the arrows or not written as "room/folder/file.h"."""
     for path in sources(room):
         relative = f"{name}/{path.relative_to(room)}"
-        detail = path.suffix == ".cpp" or path.name.endswith("_detail.h")
-        for number, line in enumerate(path.read_text().splitlines(), 1):
-            match = INCLUDE.match(line)
-            if not match:
-                continue
-            quote, target = match.groups()
-            first = target.split("/")[0]
+        is_public = path.parent == room / "include" / "metamorph"
+        for number, quote, target in includes(path):
+            first = public.get(target, target.split("/")[0])
             where = f"{relative}:{number}: "
             if quote == '"' and first not in ROOMS:
-                yield where + f'"{target}" is not written as "room/file.h"'
+                yield where + f'"{target}" is not written as "room/folder/file.h"'
             if first in ROOMS and first not in MAY_INCLUDE[name]:
                 yield where + f"{name}/ may not include {target}"
-            if public_core and first == "kernels" and not detail:
-                yield where + f"a public header of core/ may not include {target}"
+            if is_public and first in ROOMS and target not in public:
+                yield where + f"a public header may include public ones only, not {target}"
+
+
+def folder_of(target):
+    """The folder of core that an include or a file of it belongs to; None if it is none of core."""
+    parts = target.split("/")
+    if parts[0] == "metamorph":
+        stem = Path(parts[1]).stem
+        return next((f for f, names in PUBLIC_OF_CORE.items() if stem in names), None)
+    return parts[1] if parts[0] == "core" and len(parts) > 2 else None
+
+
+def core_faults(core):
+    """Includes between the folders of core against the arrows, and cycles of headers."""
+    graph = {}
+    for path in sources(core):
+        relative = path.relative_to(core)
+        public = relative.parts[0] == "include"
+        file = f"metamorph/{path.name}" if public else f"core/{relative}"
+        own = folder_of(file)
+        if own not in CORE_MAY_INCLUDE:
+            yield f"core/{relative}: lies in none of {', '.join(CORE_MAY_INCLUDE)}"
+            continue
+        for number, _, target in includes(path):
+            other = folder_of(target)
+            if other is None:
+                continue
+            graph.setdefault(file, []).append(target)
+            if other != own and other not in CORE_MAY_INCLUDE[own]:
+                yield f"core/{relative}:{number}: {own}/ may not include {target} of {other}/"
+    yield from cycles(graph)
+
+
+def cycles(graph):
+    done = set()
+
+    def visit(file, path):
+        if file in path:
+            yield "includes go in a circle: " + " -> ".join(path[path.index(file):] + [file])
+        elif file not in done:
+            for target in graph.get(file, ()):
+                yield from visit(target, path + [file])
+            done.add(file)
+
+    for file in graph:
+        yield from visit(file, [])
 
 
 def top_level_faults(root):
@@ -73,24 +142,33 @@ def self_test():
     """The scan must see a fault, or its silence means nothing."""
     import tempfile
 
+    def write(root, name, *lines):
+        path = root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("".join(f'#include "{line}"\n' for line in lines))
+
     with tempfile.TemporaryDirectory() as folder:
-        room = Path(folder) / "kernels"
-        room.mkdir()
-        (room / "a.h").write_text('#include <cmath>\n#include "core/body.h"\n  # include "b.h"\n')
-        assert len(list(include_faults("kernels", room))) == 2
-        core = Path(folder) / "core"
-        core.mkdir()
-        for name in ("a.h", "a_detail.h", "a.cpp"):
-            (core / name).write_text('#include "kernels/a.h"\n')
-        assert len(list(include_faults("core", core))) == 1
-        (Path(folder) / "stray.txt").write_text("")
-        assert len(list(top_level_faults(Path(folder)))) == 4
+        root = Path(folder)
+        write(root, "kernels/a.h", "core/body/edge_uses.h", "b.h")
+        write(root, "core/include/metamorph/body.h", "core/body/parts.h")
+        write(root, "core/body/parts.h", "metamorph/body.h", "core/locomotion/runner.h")
+        write(root, "core/locomotion/runner.h", "core/development/links.h", "kernels/a.h")
+        write(root, "core/stray.h", "metamorph/body.h")
+        public = public_headers(root)
+        assert len(list(include_faults("kernels", root / "kernels", public))) == 2
+        assert len(list(include_faults("core", root / "core", public))) == 1
+        # parts to runner, runner to links, stray; body and parts include each other.
+        assert len(list(core_faults(root / "core"))) == 4
+        (root / "stray.txt").write_text("")
+        assert len(list(top_level_faults(root))) == 4
 
 
 def main():
     root = Path(sys.argv[1])
     self_test()
-    faults = [fault for name in ROOMS for fault in include_faults(name, root / name)]
+    public = public_headers(root)
+    faults = [fault for name in ROOMS for fault in include_faults(name, root / name, public)]
+    faults += core_faults(root / "core")
     faults += top_level_faults(root)
     for line in long_files(root):
         print("long file, worth a look:", line)

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include "core/body.h"
-#include "core/random.h"
-#include "core/reference_system_detail.h"
-#include "core/scene.h"
+#include "core/reference/system.h"
+#include "metamorph/body.h"
+#include "metamorph/random.h"
+#include "metamorph/scene.h"
 
 namespace metamorph::tests {
 
@@ -25,7 +25,7 @@ inline core::Scene vacuum_scene() {
 
 /// Moves every node by up to `shift` and sets velocities of up to `speed`, per coordinate.
 inline void disturb(core::ReferenceSystem& system, double shift, double speed, std::uint64_t seed) {
-  core::RandomStream random(core::Purpose::test, seed, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, seed, 0, 0);
   for (std::size_t i = 0; i < system.x.size(); ++i) {
     system.x[i] += shift * (2 * random.uniform() - 1);
     system.y[i] += shift * (2 * random.uniform() - 1);

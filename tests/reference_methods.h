@@ -6,7 +6,7 @@
 #include <ostream>
 #include <string>
 
-#include "core/reference_simulation.h"
+#include "metamorph/reference.h"
 
 namespace metamorph::tests {
 

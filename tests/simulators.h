@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "core/body.h"
-#include "core/locomotion.h"
-#include "core/outcome.h"
-#include "core/reference_simulation.h"
-#include "core/scene.h"
+#include "metamorph/body.h"
+#include "metamorph/locomotion.h"
+#include "metamorph/outcome.h"
+#include "metamorph/reference.h"
+#include "metamorph/scene.h"
 #include "tests/tolerance.h"
 
 namespace metamorph::tests {

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "bench/accuracy/methods.h"
-#include "core/reference_system_detail.h"
+#include "core/reference/system.h"
 
 namespace metamorph::bench {
 

@@ -8,9 +8,9 @@
 #include "bench/accuracy/evaluation.h"
 #include "bench/accuracy/linearly_implicit.h"
 #include "bench/accuracy/xpbd.h"
-#include "core/locomotion.h"
-#include "core/random.h"
-#include "core/reference_simulation.h"
+#include "metamorph/locomotion.h"
+#include "metamorph/random.h"
+#include "metamorph/reference.h"
 
 namespace metamorph::bench {
 namespace {
@@ -117,7 +117,7 @@ double travel(const core::Scene& scene, const core::Outcome& outcome) {
 }
 
 core::Body moved(core::Body body, double size) {
-  core::RandomStream random(core::Purpose::test, 1, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, 1, 0, 0);
   for (std::size_t i = 0; i < body.x.size(); ++i) {
     body.x[i] += size * (2 * random.uniform() - 1);
     body.y[i] += size * (2 * random.uniform() - 1);

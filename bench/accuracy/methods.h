@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/body.h"
-#include "core/outcome.h"
-#include "core/scene.h"
+#include "metamorph/body.h"
+#include "metamorph/outcome.h"
+#include "metamorph/scene.h"
 
 namespace metamorph::bench {
 

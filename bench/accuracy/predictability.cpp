@@ -5,7 +5,7 @@
 #include "bench/accuracy/methods.h"
 #include "bench/accuracy/parallel.h"
 #include "bench/accuracy/studies.h"
-#include "core/locomotion.h"
+#include "metamorph/locomotion.h"
 
 namespace metamorph::bench {
 namespace {

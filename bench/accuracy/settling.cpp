@@ -9,7 +9,7 @@
 #include "bench/accuracy/methods.h"
 #include "bench/accuracy/parallel.h"
 #include "bench/accuracy/studies.h"
-#include "core/reference_simulation.h"
+#include "metamorph/reference.h"
 
 namespace metamorph::bench {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "bench/accuracy/parallel.h"
 #include "bench/accuracy/studies.h"
-#include "core/locomotion.h"
-#include "core/outline_crossing.h"
+#include "core/body/outline_crossing.h"
+#include "metamorph/locomotion.h"
 
 namespace metamorph::bench {
 namespace {

@@ -4,11 +4,11 @@
 #include <array>
 #include <span>
 
-#include "core/development.h"
-#include "core/extract_body.h"
 #include "evolve/files/genome_file.h"
 #include "evolve/genetics/genome.h"
 #include "evolve/genetics/population.h"
+#include "metamorph/development.h"
+#include "metamorph/extraction.h"
 
 namespace metamorph::bench {
 namespace {

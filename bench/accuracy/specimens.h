@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/body.h"
+#include "metamorph/body.h"
 
 namespace metamorph::bench {
 

@@ -9,9 +9,9 @@
 #include "bench/accuracy/linearly_implicit.h"
 #include "bench/accuracy/parallel.h"
 #include "bench/accuracy/studies.h"
-#include "core/random.h"
-#include "core/reference_stability.h"
-#include "core/reference_system_detail.h"
+#include "core/reference/stability.h"
+#include "core/reference/system.h"
+#include "metamorph/random.h"
 
 namespace metamorph::bench {
 namespace {
@@ -76,7 +76,7 @@ core::Scene bare_scene() {
 bool stays_small(const core::Body& body, const core::Scene& scene, const Named& named, double h) {
   ReferenceSystem system(body, scene);
   const Stepper step = named.stepper(body, scene);
-  core::RandomStream random(core::Purpose::test, 7, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, 7, 0, 0);
   for (double& x : system.x) x += 1e-7 * (2 * random.uniform() - 1);
   for (double& y : system.y) y += 1e-7 * (2 * random.uniform() - 1);
   for (int n = 1; n <= 2000; ++n) {

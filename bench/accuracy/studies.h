@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/accuracy/specimens.h"
-#include "core/scene.h"
+#include "metamorph/scene.h"
 
 /// What is measured. Each writes one table (CSV, a row per measurement) and leaves statistics to
 /// bench/plot_accuracy.py.

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "core/body.h"
-#include "core/reference_system_detail.h"
-#include "core/scene.h"
+#include "core/reference/system.h"
+#include "metamorph/body.h"
+#include "metamorph/scene.h"
 
 namespace metamorph::bench {
 

@@ -8,10 +8,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "core/status.h"
 #include "evolve/app/commands.h"
 #include "evolve/app/options.h"
 #include "evolve/run/audit.h"
+#include "metamorph/status.h"
 
 namespace metamorph::evolve {
 namespace {

@@ -11,8 +11,7 @@
 #include <system_error>
 #include <vector>
 
-#include "core/development.h"
-#include "core/extract_body.h"
+#include "core/development/link_check.h"
 #include "evolve/app/commands.h"
 #include "evolve/app/options.h"
 #include "evolve/files/body_file.h"
@@ -21,6 +20,8 @@
 #include "evolve/files/input_error.h"
 #include "evolve/files/output_file.h"
 #include "evolve/view/draw.h"
+#include "metamorph/development.h"
+#include "metamorph/extraction.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -62,12 +63,9 @@ std::vector<int> steps_of(const GrowOptions& options) {
   return steps;
 }
 
-/// check: what is to see every renewal of neighbours, or nothing.
-std::vector<Grown> grow(const Genome& genome, const GrowOptions& options, const fs::path& out,
-                        std::span<core::LinkCheck> check) {
-  const std::vector<int> steps = steps_of(options);
-  const std::array<core::Network, 1> networks = {compile(genome)};
-  auto embryos = core::develop(networks, options.rules, steps, 1, check);
+std::vector<Grown> grow(const core::Network& network, const GrowOptions& options,
+                        const std::vector<int>& steps, const fs::path& out) {
+  auto embryos = core::develop({&network, 1}, options.rules, steps, 1);
   std::vector<Grown> result;
   for (core::Embryo& embryo : embryos.front()) {
     Grown grown;
@@ -124,11 +122,13 @@ void grow_command(const GrowOptions& options) {
   const Genome genome = read_genome(options.genome);
   const fs::path out =
       options.out.empty() ? fs::path(options.genome).stem() : fs::path(options.out);
-  std::vector<core::LinkCheck> check(options.check_links ? 1 : 0);
-  const std::vector<Grown> all = grow(genome, options, out, check);
-  if (options.check_links && !check[0].ok()) {
-    throw std::runtime_error(options.genome + ": " + difference_text(check[0]));
-  }
+  const core::Network network = compile(genome);
+  const std::vector<int> steps = steps_of(options);
+  core::LinkCheck check;
+  if (options.check_links)
+    check = core::check_links({&network, 1}, options.rules, steps, 1).front();
+  if (!check.ok()) throw std::runtime_error(options.genome + ": " + difference_text(check));
+  const std::vector<Grown> all = grow(network, options, steps, out);
   const fs::path picture = out / ("development." + options.picture);
   const bool with_picture = options.picture != "none";
 
@@ -167,8 +167,8 @@ void grow_command(const GrowOptions& options) {
   print(all, options.json);
   if (with_picture && !options.json) fmt::print("picture: {}\n", picture.string());
   if (options.check_links && !options.json) {
-    fmt::print("{} links at {} renewals: all as a full triangulation has them\n", check[0].links,
-               check[0].renewals);
+    fmt::print("{} links at {} renewals: all as a full triangulation has them\n", check.links,
+               check.renewals);
   }
 }
 

@@ -4,11 +4,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "core/status.h"
 #include "evolve/app/commands.h"
 #include "evolve/app/text.h"
 #include "evolve/experiment/keys.h"
 #include "evolve/run/run_reader.h"
+#include "metamorph/status.h"
 
 namespace metamorph::evolve {
 namespace {

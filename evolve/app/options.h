@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/development.h"
-#include "core/locomotion.h"
-#include "core/scene.h"
+#include "metamorph/development.h"
+#include "metamorph/locomotion.h"
+#include "metamorph/scene.h"
 
 namespace metamorph::evolve {
 

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/extract_body.h"
 #include "evolve/app/commands.h"
 #include "evolve/app/options.h"
 #include "evolve/experiment/experiment_file.h"
@@ -20,6 +19,7 @@
 #include "evolve/run/pictures.h"
 #include "evolve/run/run_reader.h"
 #include "evolve/view/motion.h"
+#include "metamorph/extraction.h"
 
 namespace metamorph::evolve {
 namespace {

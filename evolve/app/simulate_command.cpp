@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "core/automatic_step.h"
-#include "core/locomotion.h"
-#include "core/stability.h"
-#include "core/step_refusal.h"
 #include "evolve/app/commands.h"
 #include "evolve/app/options.h"
 #include "evolve/app/text.h"
@@ -21,6 +16,11 @@
 #include "evolve/files/outcome_json.h"
 #include "evolve/files/output_file.h"
 #include "evolve/files/trajectory_file.h"
+#include "metamorph/automatic_step.h"
+#include "metamorph/locomotion.h"
+#include "metamorph/stability.h"
+#include "metamorph/step_refusal.h"
+#include "metamorph/threads.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -137,7 +137,7 @@ void tell_work(const std::vector<Animat>& animats, const core::Scene& scene,
     spring_steps += steps * static_cast<double>(animat.body.springs.size());
     ++bodies;
   }
-  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+  const int threads = core::thread_count(options.threads);
   const std::string work =
       work_text(most_steps, spring_steps, std::clamp(threads, 1, std::max(bodies, 1)));
   if (!work.empty()) fmt::print(stderr, "long work: {}\n", work);

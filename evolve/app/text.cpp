@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/stability.h"
+#include "metamorph/stability.h"
 
 namespace metamorph::evolve {
 

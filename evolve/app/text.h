@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <string>
 
-#include "core/body.h"
-#include "core/outcome.h"
 #include "evolve/run/evaluate.h"
+#include "metamorph/body.h"
+#include "metamorph/outcome.h"
 
 namespace metamorph::evolve {
 
@@ -13,7 +13,7 @@ namespace metamorph::evolve {
 std::string duration_text(double seconds);
 
 /// "with a step above 90 % (water), 50 % (land) or 90 % (settling) of its limit"; the margins are
-/// those of core/stability.h.
+/// those of metamorph/stability.h.
 std::string near_limit_text();
 
 /// What had not to be computed again: "39 of 300 developments (13.0 %), 88 of 560 simulations

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "core/development.h"
-#include "core/locomotion.h"
-#include "core/scene.h"
 #include "evolve/genetics/population.h"
 #include "evolve/search/search.h"
+#include "metamorph/development.h"
+#include "metamorph/locomotion.h"
+#include "metamorph/scene.h"
 
 namespace metamorph::evolve {
 

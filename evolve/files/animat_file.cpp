@@ -4,12 +4,12 @@
 #include <array>
 #include <system_error>
 
-#include "core/extract_body.h"
 #include "evolve/files/body_file.h"
 #include "evolve/files/embryo_file.h"
 #include "evolve/files/genome_file.h"
 #include "evolve/files/input_error.h"
 #include "evolve/files/json_detail.h"
+#include "metamorph/extraction.h"
 
 namespace metamorph::evolve {
 namespace {

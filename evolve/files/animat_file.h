@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/body.h"
-#include "core/development.h"
-#include "core/status.h"
+#include "metamorph/body.h"
+#include "metamorph/development.h"
+#include "metamorph/status.h"
 
 namespace metamorph::evolve {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/body.h"
 #include "evolve/files/output_file.h"
+#include "metamorph/body.h"
 
 namespace metamorph::evolve {
 

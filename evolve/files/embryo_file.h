@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "core/development.h"
-#include "core/extract_body.h"
 #include "evolve/files/output_file.h"
+#include "metamorph/development.h"
+#include "metamorph/extraction.h"
 
 namespace metamorph::evolve {
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/outcome.h"
+#include "metamorph/outcome.h"
 
 namespace metamorph::evolve {
 

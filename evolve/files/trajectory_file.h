@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "core/locomotion.h"
 #include "evolve/files/output_file.h"
+#include "metamorph/locomotion.h"
 
 namespace metamorph::evolve {
 

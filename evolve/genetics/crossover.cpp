@@ -4,8 +4,7 @@
 
 namespace metamorph::evolve {
 
-Genome cross(const Genome& fitter, const Genome& other, bool averaging,
-             core::RandomStream& stream) {
+Genome cross(const Genome& fitter, const Genome& other, bool averaging, RandomStream& stream) {
   Genome child = fitter;
   auto mate = other.links.begin();
   std::uint32_t coins = 0;  // one random bit per matching link, taken from 32-bit draws

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/network.h"
+#include "metamorph/network.h"
 
 namespace metamorph::evolve {
 

@@ -13,11 +13,11 @@ namespace metamorph::evolve {
 
 namespace {
 
-std::uint32_t draw_below(std::size_t n, core::RandomStream& stream) {
+std::uint32_t draw_below(std::size_t n, RandomStream& stream) {
   return stream.below(static_cast<std::uint32_t>(n));
 }
 
-bool mutate_weights(Genome& genome, const NeatSettings& settings, core::RandomStream& stream) {
+bool mutate_weights(Genome& genome, const NeatSettings& settings, RandomStream& stream) {
   if (genome.links.empty()) return false;
   if (stream.chance(settings.severe)) {
     for (LinkGene& link : genome.links) link.weight = new_weight(settings, stream);
@@ -55,7 +55,7 @@ bool addable(const Genome& genome, int from, int to) {
 }
 
 bool add_link(const Genome& genome, StructuralChange& change, const NeatSettings& settings,
-              core::RandomStream& stream) {
+              RandomStream& stream) {
   std::vector<int> sources, targets;
   for (const NodeGene& node : genome.nodes) {
     if (node.kind != NodeKind::output) sources.push_back(node.id);
@@ -88,7 +88,7 @@ bool add_link(const Genome& genome, StructuralChange& change, const NeatSettings
   return true;
 }
 
-bool add_node(const Genome& genome, StructuralChange& change, core::RandomStream& stream) {
+bool add_node(const Genome& genome, StructuralChange& change, RandomStream& stream) {
   std::vector<const LinkGene*> splittable;
   for (const LinkGene& link : genome.links) {
     if (link.from != bias_input) splittable.push_back(&link);
@@ -99,7 +99,7 @@ bool add_node(const Genome& genome, StructuralChange& change, core::RandomStream
   return true;
 }
 
-bool remove_link(Genome& genome, core::RandomStream& stream) {
+bool remove_link(Genome& genome, RandomStream& stream) {
   if (genome.links.size() < 2) return false;
   const auto at = genome.links.begin() + draw_below(genome.links.size(), stream);
   const std::array<int, 2> ends = {at->from, at->to};
@@ -114,7 +114,7 @@ bool remove_link(Genome& genome, core::RandomStream& stream) {
 }
 
 bool attempt(MutationKind kind, Genome& genome, StructuralChange& change,
-             const NeatSettings& settings, core::RandomStream& stream) {
+             const NeatSettings& settings, RandomStream& stream) {
   switch (kind) {
     case MutationKind::weights:
       return mutate_weights(genome, settings, stream);
@@ -133,7 +133,7 @@ bool attempt(MutationKind kind, Genome& genome, StructuralChange& change,
 }  // namespace
 
 MutationKind mutate(Genome& genome, StructuralChange& change, const NeatSettings& settings,
-                    core::RandomStream& stream) {
+                    RandomStream& stream) {
   std::array<std::pair<MutationKind, double>, 4> wheel = {
       {{MutationKind::weights, settings.mutate_weights},
        {MutationKind::add_link, settings.add_link},

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/random.h"
 #include "evolve/genetics/population.h"
+#include "metamorph/random.h"
 
 namespace metamorph::evolve {
 
@@ -27,6 +27,6 @@ struct StructuralChange {
 /// - add node: splits a uniformly drawn link that does not come from the bias.
 /// - remove link: any but the last one; hidden nodes left without any link go with it.
 MutationKind mutate(Genome& genome, StructuralChange& change, const NeatSettings& settings,
-                    core::RandomStream& stream);
+                    RandomStream& stream);
 
 }  // namespace metamorph::evolve

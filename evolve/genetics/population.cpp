@@ -5,11 +5,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/random.h"
 #include "evolve/genetics/innovations.h"
 #include "evolve/genetics/reproduction.h"
 #include "evolve/genetics/seed_genome.h"
 #include "evolve/genetics/species.h"
+#include "metamorph/random.h"
 
 namespace metamorph::evolve {
 
@@ -18,8 +18,7 @@ PopulationState first_generation(const NeatSettings& settings, std::uint64_t see
   state.seed = seed;
   state.compatibility_threshold = settings.compatibility_threshold;
   for (int i = 0; i < settings.population; ++i) {
-    core::RandomStream stream(core::Purpose::initial_genome, seed, 0,
-                              static_cast<std::uint32_t>(i));
+    RandomStream stream(Purpose::initial_genome, seed, 0, static_cast<std::uint32_t>(i));
     state.genomes.push_back(seed_genome(settings, stream));
     Individual individual;
     individual.id = state.next_individual++;

@@ -6,13 +6,10 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "core/random.h"
 #include "evolve/genetics/crossover.h"
+#include "metamorph/random.h"
 
 namespace metamorph::evolve {
-
-using core::Purpose;
-using core::RandomStream;
 
 std::vector<int> apportion(std::span<const double> shares, int seats) {
   // Relative to the largest share: of any size, without overflow.

@@ -4,12 +4,12 @@
 
 namespace metamorph::evolve {
 
-double new_weight(const NeatSettings& settings, core::RandomStream& stream) {
+double new_weight(const NeatSettings& settings, RandomStream& stream) {
   return std::clamp(settings.initial_weight * stream.triangular(), -settings.weight_limit,
                     settings.weight_limit);
 }
 
-Genome seed_genome(const NeatSettings& settings, core::RandomStream& stream) {
+Genome seed_genome(const NeatSettings& settings, RandomStream& stream) {
   Genome genome;
   const int nodes = first_hidden + settings.hidden_nodes;
   for (int id = 0; id < nodes; ++id) genome.nodes.push_back({id, kind_of(id)});

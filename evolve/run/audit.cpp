@@ -1,19 +1,19 @@
 #include "evolve/run/audit.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/automatic_step.h"
-#include "core/development.h"
-#include "core/extract_body.h"
-#include "core/reference_simulation.h"
 #include "evolve/files/input_error.h"
 #include "evolve/run/evaluate.h"
 #include "evolve/run/median.h"
 #include "evolve/run/starts.h"
+#include "metamorph/automatic_step.h"
+#include "metamorph/development.h"
+#include "metamorph/extraction.h"
+#include "metamorph/reference.h"
+#include "metamorph/threads.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -238,7 +238,7 @@ RunAudit audit(const RunReader& run, const AuditOptions& options,
     audited.trials.resize(trials);
   }
 
-  const int threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+  const int threads = core::thread_count(options.threads);
   std::vector<Evaluated> replays(result.champions.size());
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(replays.size()); ++i) {

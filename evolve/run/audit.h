@@ -3,10 +3,10 @@
 #include <functional>
 #include <vector>
 
-#include "core/outcome.h"
 #include "evolve/experiment/experiment.h"
 #include "evolve/run/nearby_starts.h"
 #include "evolve/run/run_reader.h"
+#include "metamorph/outcome.h"
 
 namespace metamorph::evolve {
 

@@ -2,7 +2,7 @@
 
 namespace metamorph::evolve {
 
-core::Body displaced(core::Body body, double displacement, core::RandomStream random) {
+core::Body displaced(core::Body body, double displacement, RandomStream random) {
   for (std::size_t i = 0; i < body.x.size(); ++i) {
     body.x[i] += displacement * (2 * random.uniform() - 1);
     body.y[i] += displacement * (2 * random.uniform() - 1);

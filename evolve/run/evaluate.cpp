@@ -1,17 +1,17 @@
 #include "evolve/run/evaluate.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <functional>
 #include <stdexcept>
 #include <unordered_set>
 
-#include "core/development.h"
-#include "core/locomotion.h"
+#include "core/development/link_check.h"
 #include "evolve/files/genome_file.h"
 #include "evolve/run/starts.h"
 #include "evolve/run/stopwatch.h"
+#include "metamorph/development.h"
+#include "metamorph/locomotion.h"
+#include "metamorph/threads.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -64,7 +64,7 @@ std::size_t Evaluator::TaskHash::operator()(const Task& task) const {
 
 Evaluator::Evaluator(const Experiment& experiment, int threads, CheckedLinks* checked)
     : experiment_(experiment),
-      threads_(threads > 0 ? threads : omp_get_max_threads()),
+      threads_(core::thread_count(threads)),
       checked_(checked),
       renews_(std::any_of(experiment.trials.begin(), experiment.trials.end(),
                           [](const Trial& trial) { return trial.starts_renew; })) {}
@@ -142,10 +142,13 @@ std::vector<Evaluator::Known> Evaluator::grow(std::span<const core::Network> net
   const std::size_t stage_count = stages.size();
 
   Stopwatch watch;
-  std::vector<core::LinkCheck> checks(checked_ != nullptr ? count : 0);
   const std::vector<std::vector<core::Embryo>> embryos =
-      core::develop(networks, experiment_.development, stages, threads_, checks);
-  for (std::size_t i = 0; i < checks.size(); ++i) count_links(checks[i], *genomes[i], *checked_);
+      core::develop(networks, experiment_.development, stages, threads_);
+  if (checked_ != nullptr) {
+    const std::vector<core::LinkCheck> checks =
+        core::check_links(networks, experiment_.development, stages, threads_);
+    for (std::size_t i = 0; i < count; ++i) count_links(checks[i], *genomes[i], *checked_);
+  }
   work.developed += static_cast<std::int64_t>(count);
   seconds.develop += watch.lap();
 

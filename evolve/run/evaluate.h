@@ -5,11 +5,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/extract_body.h"
 #include "evolve/experiment/experiment.h"
 #include "evolve/genetics/genome.h"
 #include "evolve/run/fingerprint.h"
 #include "evolve/search/search.h"
+#include "metamorph/extraction.h"
 
 namespace metamorph::evolve {
 
@@ -31,7 +31,7 @@ struct EvaluationSeconds {
   double develop = 0, extract = 0, locomotion = 0;
 };
 
-/// What a check of links has compared (core/link_check.h).
+/// What a check of links has compared (core/development/link_check.h).
 struct CheckedLinks {
   std::int64_t developments = 0, renewals = 0, links = 0;
 };

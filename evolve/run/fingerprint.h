@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/body.h"
-#include "core/network.h"
+#include "metamorph/body.h"
+#include "metamorph/network.h"
 
 namespace metamorph::evolve {
 

@@ -42,7 +42,7 @@ std::array<int, core::status_count> count_statuses(const GenerationResult& resul
 /// Evaluations, each start counted; trials that were not run are left out.
 std::int64_t count_evaluations(const Experiment& experiment, const GenerationResult& result);
 
-/// Evaluations whose step came closer to its limit than the margin (core/stability.h).
+/// Evaluations whose step came closer to its limit than the margin (metamorph/stability.h).
 int count_near_step_limit(const GenerationResult& result);
 
 /// Position of the highest eq 6; ties go to the higher score, then to the lower position.

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/automatic_step.h"
-#include "core/random.h"
 #include "evolve/run/displaced.h"
 #include "evolve/run/median.h"
+#include "metamorph/automatic_step.h"
+#include "metamorph/random.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -80,8 +80,7 @@ NearbyStarts run_nearby_starts(const core::Body& body, const core::Scene& scene,
   result.predictable_for = unchanged.time.back();
   std::vector<double> distances;
   for (int s = 0; s < starts; ++s) {
-    const core::RandomStream random(core::Purpose::nearby_start, 1, static_cast<std::uint32_t>(s),
-                                    0);
+    const RandomStream random(Purpose::nearby_start, 1, static_cast<std::uint32_t>(s), 0);
     const Course changed = run_course(displaced(body, displacement, random), own, method);
     ++result.starts;
     if (core::is_failure(changed.outcome.status)) {

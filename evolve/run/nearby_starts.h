@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/body.h"
-#include "core/locomotion.h"
-#include "core/scene.h"
+#include "metamorph/body.h"
+#include "metamorph/locomotion.h"
+#include "metamorph/scene.h"
 
 namespace metamorph::evolve {
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "core/extract_body.h"
 #include "evolve/view/draw.h"
+#include "metamorph/extraction.h"
 
 namespace metamorph::evolve {
 

@@ -2,7 +2,6 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <omp.h>
 #include <sqlite3.h>
 #include <sys/utsname.h>
 
@@ -10,6 +9,7 @@
 #include <fstream>
 #include <thread>
 
+#include "metamorph/threads.h"
 namespace metamorph::evolve {
 namespace {
 
@@ -39,7 +39,7 @@ std::vector<std::pair<std::string, std::string>> session_facts(int threads) {
           {"processor", processor()},
           {"cores", std::to_string(std::thread::hardware_concurrency())},
           {"system", fmt::format("{} {} {}", system.sysname, system.release, system.machine)},
-          {"threads", std::to_string(threads > 0 ? threads : omp_get_max_threads())},
+          {"threads", std::to_string(core::thread_count(threads))},
           {"started", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))}};
 }
 

@@ -14,10 +14,9 @@ core::Body start_of(const core::Body& body, const Trial& trial, int start, std::
                     int generation) {
   if (!is_displaced(trial, start)) return body;
   const int drawn_in = trial.starts_renew ? generation : 0;
-  return displaced(
-      body, trial.start_displacement,
-      core::RandomStream(core::Purpose::trial_start, seed, static_cast<std::uint32_t>(drawn_in),
-                         static_cast<std::uint32_t>(start)));
+  return displaced(body, trial.start_displacement,
+                   RandomStream(Purpose::trial_start, seed, static_cast<std::uint32_t>(drawn_in),
+                                static_cast<std::uint32_t>(start)));
 }
 
 core::Outcome combine_starts(std::span<const core::Outcome> outcomes, StartsCombine rule) {

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <span>
 
-#include "core/body.h"
-#include "core/outcome.h"
 #include "evolve/experiment/experiment.h"
+#include "metamorph/body.h"
+#include "metamorph/outcome.h"
 
 namespace metamorph::evolve {
 

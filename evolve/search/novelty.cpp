@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/nearest.h"
+#include "evolve/search/nearest.h"
 
 namespace metamorph::evolve {
 
@@ -48,7 +48,7 @@ std::vector<double> novelty(std::span<const std::vector<double>> behaviours,
     }
   }
   std::vector<double> mean(queries);
-  core::mean_nearest_distances(points, static_cast<int>(dimensions), neighbours, threads, mean);
+  mean_nearest_distances(points, static_cast<int>(dimensions), neighbours, threads, mean);
   for (std::size_t q = 0; q < queries; ++q) {
     scores[with_behaviour[q]] = mean[q] < 0 ? alone : mean[q];
   }

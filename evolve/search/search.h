@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/outcome.h"
+#include "metamorph/outcome.h"
 
 namespace metamorph::evolve {
 

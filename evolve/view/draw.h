@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "core/body.h"
-#include "core/development.h"
-#include "core/outcome.h"
-#include "core/scene.h"
 #include "evolve/view/sheet.h"
+#include "metamorph/body.h"
+#include "metamorph/development.h"
+#include "metamorph/outcome.h"
+#include "metamorph/scene.h"
 
 namespace metamorph::evolve {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/automatic_step.h"
+#include "metamorph/automatic_step.h"
 
 namespace metamorph::evolve {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/locomotion.h"
 #include "evolve/view/draw.h"
+#include "metamorph/locomotion.h"
 
 namespace metamorph::evolve {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/body.h"
-#include "core/development.h"
 #include "evolve/view/canvas.h"
+#include "metamorph/body.h"
+#include "metamorph/development.h"
 
 namespace metamorph::evolve {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "bench/accuracy/xpbd.h"
-#include "core/reference_system_detail.h"
-#include "core/scene.h"
+#include "core/reference/system.h"
+#include "metamorph/scene.h"
 #include "tests/bodies.h"
 #include "tests/physics.h"
 #include "tests/tolerance.h"

@@ -1,4 +1,4 @@
-#include "core/automatic_step.h"
+#include "metamorph/automatic_step.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,10 +10,10 @@
 #include <tuple>
 #include <vector>
 
-#include "core/locomotion.h"
-#include "core/reference_simulation.h"
-#include "core/reference_stability.h"
-#include "core/stability.h"
+#include "core/reference/stability.h"
+#include "metamorph/locomotion.h"
+#include "metamorph/reference.h"
+#include "metamorph/stability.h"
 #include "tests/bodies.h"
 
 namespace metamorph::tests {

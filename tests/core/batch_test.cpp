@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "core/locomotion.h"
-#include "core/random.h"
-#include "core/stability.h"
+#include "metamorph/locomotion.h"
+#include "metamorph/random.h"
+#include "metamorph/stability.h"
 #include "tests/bodies.h"
 
 namespace metamorph::core {
@@ -70,7 +70,7 @@ TEST_P(Batch, EqualsSinglesForAnySizeAndOrder) {
   }
   std::vector<std::size_t> order(all.tasks.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  RandomStream random(Purpose::test, 5, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, 5, 0, 0);
   for (std::size_t i = order.size() - 1; i > 0; --i) {
     std::swap(order[i], order[random.below(static_cast<std::uint32_t>(i + 1))]);
   }

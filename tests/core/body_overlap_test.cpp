@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/body.h"
-#include "core/outline_crossing.h"
+#include "core/body/outline_crossing.h"
+#include "metamorph/body.h"
 #include "tests/bodies.h"
 
 namespace metamorph::core {

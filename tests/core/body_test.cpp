@@ -1,4 +1,4 @@
-#include "core/body.h"
+#include "metamorph/body.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // The list of self-collision misses no pair that touches, whatever the motion: against every
 // outline node and every outline edge.
 
-#include "core/collision_list_detail.h"
+#include "core/locomotion/collision_list.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/random.h"
-#include "core/solid_pairs.h"
+#include "core/locomotion/solid_pairs.h"
 #include "kernels/reference/self_collision.h"
+#include "metamorph/random.h"
 #include "tests/bodies.h"
 
 namespace metamorph::core {
@@ -219,7 +219,7 @@ struct Drive {
 template <class T>
 void drive_about() {
   const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1000);
-  RandomStream random(Purpose::test, seed, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, seed, 0, 0);
   Watched<T> body(seed % 2 == 0 ? tests::blob_body(20 + static_cast<int>(seed % 7) * 20, seed)
                                 : tests::ring_body(3, 7));
   const auto draw = [&](double most) { return most * random.triangular(); };
@@ -248,7 +248,7 @@ RC_GTEST_PROP(CollisionList, MissesNoPairDouble, ()) { drive_about<double>(); }
 template <class T>
 void close_in_on_a_pair() {
   const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1000);
-  RandomStream random(Purpose::test, seed, 1, 0);
+  evolve::RandomStream random(evolve::Purpose::test, seed, 1, 0);
   const auto below = [&](std::size_t n) {
     return static_cast<std::size_t>(random.uniform() * static_cast<double>(n));
   };
@@ -295,7 +295,7 @@ TEST(CollisionList, MissesNoPairWhenStepsAreRounded) {
 template <class T>
 void rush() {
   const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1000);
-  RandomStream random(Purpose::test, seed, 3, 0);
+  evolve::RandomStream random(evolve::Purpose::test, seed, 3, 0);
   Watched<T> body(seed % 2 == 0 ? tests::blob_body(40, seed) : tests::ring_body(3, 7));
   for (int n = 0; n < 12; ++n) {
     // Nearly always slow, so that the list has been made for slow ones.

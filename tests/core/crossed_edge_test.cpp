@@ -1,4 +1,4 @@
-#include "core/crossed_edge.h"
+#include "core/locomotion/crossed_edge.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/body.h"
-#include "core/outline_crossing.h"
-#include "core/predicates.h"
-#include "core/segment_distance.h"
+#include "core/body/outline_crossing.h"
+#include "core/body/predicates.h"
+#include "core/locomotion/segment_distance.h"
+#include "metamorph/body.h"
 #include "tests/bodies.h"
 
 namespace metamorph::tests {

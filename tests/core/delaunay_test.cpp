@@ -1,4 +1,4 @@
-#include "core/delaunay.h"
+#include "core/development/delaunay.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

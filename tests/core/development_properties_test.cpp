@@ -6,10 +6,10 @@
 #include <numeric>
 #include <vector>
 
-#include "core/delaunay.h"
-#include "core/developer_detail.h"
-#include "core/development.h"
-#include "core/links.h"
+#include "core/development/delaunay.h"
+#include "core/development/developer.h"
+#include "core/development/links.h"
+#include "metamorph/development.h"
 #include "tests/core/network_builder.h"
 
 namespace metamorph::core {

@@ -1,4 +1,4 @@
-#include "core/development.h"
+#include "metamorph/development.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/extract_body.h"
+#include "metamorph/extraction.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -185,7 +185,7 @@ TEST(ExtractBody, TheSmallestBodyIsMinCells) {
 /// extraction looks at nothing but faces and links, and this shows it every topology.
 Embryo random_links(std::uint64_t seed, double share) {
   const Body patch = tests::disc_body(37);
-  RandomStream random(Purpose::test, seed, 1, 0);
+  evolve::RandomStream random(evolve::Purpose::test, seed, 1, 0);
   std::vector<std::array<Index, 2>> links;
   for (const auto& edge : patch.springs) {
     if (random.chance(share)) links.push_back(edge);
@@ -288,7 +288,8 @@ RC_GTEST_PROP(ExtractBody, AgreesWithTheDefinition, ()) {
 RC_GTEST_PROP(ExtractBody, DoesNotDependOnTheOrderOfFaces, ()) {
   Embryo embryo = random_links(*rc::gen::inRange<std::uint64_t>(0, 1000000), 0.6);
   const Body expected = extract_body(embryo, 3).body;
-  RandomStream random(Purpose::test, *rc::gen::inRange<std::uint64_t>(0, 1000000), 2, 0);
+  evolve::RandomStream random(evolve::Purpose::test, *rc::gen::inRange<std::uint64_t>(0, 1000000),
+                              2, 0);
   for (std::size_t i = embryo.faces.size(); i > 1; --i) {
     std::swap(embryo.faces[i - 1], embryo.faces[random.below(static_cast<std::uint32_t>(i))]);
   }

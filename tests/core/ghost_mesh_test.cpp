@@ -1,4 +1,4 @@
-#include "core/ghost_mesh.h"
+#include "core/development/ghost_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/link_check.h"
+#include "core/development/link_check.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "core/links.h"
+#include "core/development/links.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/delaunay.h"
+#include "core/development/delaunay.h"
 
 namespace metamorph::core {
 namespace {

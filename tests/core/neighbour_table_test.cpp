@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "core/neighbour_table_detail.h"
+#include "core/development/neighbour_table.h"
 
 namespace metamorph::core {
 namespace {

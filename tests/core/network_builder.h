@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/network.h"
-#include "core/random.h"
+#include "metamorph/network.h"
+#include "metamorph/random.h"
 
 namespace metamorph::core::testing {
 
@@ -58,7 +58,7 @@ class NetworkBuilder {
 /// bias to the outputs; weights 2 * (difference of two uniforms).
 inline Network random_network(std::uint64_t seed, std::uint32_t individual = 0) {
   constexpr int hidden = 8;
-  RandomStream random(Purpose::test, seed, 0, individual);
+  evolve::RandomStream random(evolve::Purpose::test, seed, 0, individual);
   Network network;
   const auto add = [&](int source) {
     network.source.push_back(source);

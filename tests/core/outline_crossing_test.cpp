@@ -1,4 +1,4 @@
-#include "core/outline_crossing.h"
+#include "core/body/outline_crossing.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <ostream>
 
-#include "core/random.h"
+#include "metamorph/random.h"
 
 namespace metamorph::core {
 
@@ -214,13 +214,13 @@ std::pair<std::vector<double>, std::vector<double>> coordinates(const Walk& w, d
   return {x, y};
 }
 
-Vector random_point(RandomStream& random, std::uint32_t grid) {
+Vector random_point(evolve::RandomStream& random, std::uint32_t grid) {
   return {2 * static_cast<std::int64_t>(random.below(grid)),
           2 * static_cast<std::int64_t>(random.below(grid))};
 }
 
 /// One closed walk that may come through a node more than once, no edge of it without length.
-Walk random_walk(RandomStream& random) {
+Walk random_walk(evolve::RandomStream& random) {
   const std::uint32_t nodes = 3 + random.below(6), grid = 3 + random.below(8);
   Walk walk;
   for (std::uint32_t n = 0; n < nodes; ++n) walk.at.push_back(random_point(random, grid));
@@ -238,7 +238,7 @@ Walk random_walk(RandomStream& random) {
 }
 
 TEST(OutlineCrossing, AgreesWithBruteForceOnRandomWalks) {
-  RandomStream random(Purpose::test, 41, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, 41, 0, 0);
   int met = 0, entangled = 0, clear = 0;
   for (int i = 0; i < 60000; ++i) {
     const Walk walk = random_walk(random);
@@ -267,7 +267,7 @@ TEST(OutlineCrossing, AgreesWithBruteForceOnRandomWalks) {
 TEST(OutlineCrossing, ALongPolygonIsFoundWholeOrNot) {
   // A star of many nodes around the origin crosses itself nowhere; with two nodes exchanged it does
   // or does not, as brute force tells.
-  RandomStream random(Purpose::test, 42, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, 42, 0, 0);
   int met = 0;
   for (int i = 0; i < 300; ++i) {
     Walk star;
@@ -295,7 +295,7 @@ TEST(OutlineCrossing, ALongPolygonIsFoundWholeOrNot) {
 }
 
 TEST(OutlineCrossing, OverlapAgreesWithWindingNumbers) {
-  RandomStream random(Purpose::test, 43, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, 43, 0, 0);
   int overlapping = 0, apart = 0;
   for (int i = 0; i < 60000; ++i) {
     Walk loops;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.h"
-#include "core/status.h"
+#include "metamorph/scene.h"
+#include "metamorph/status.h"
 #include "tests/bodies.h"
 #include "tests/physics.h"
 #include "tests/simulators.h"

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "core/outline_crossing.h"
-#include "core/reference_system_detail.h"
-#include "core/scene.h"
-#include "core/status.h"
+#include "core/body/outline_crossing.h"
+#include "core/reference/system.h"
+#include "metamorph/scene.h"
+#include "metamorph/status.h"
 #include "tests/bodies.h"
 #include "tests/physics.h"
 #include "tests/reference_methods.h"

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/scene.h"
-#include "core/status.h"
+#include "metamorph/scene.h"
+#include "metamorph/status.h"
 #include "tests/bodies.h"
 #include "tests/physics.h"
 #include "tests/simulators.h"

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/random.h"
-#include "core/scene.h"
-#include "core/status.h"
+#include "metamorph/random.h"
+#include "metamorph/scene.h"
+#include "metamorph/status.h"
 #include "tests/bodies.h"
 #include "tests/physics.h"
 #include "tests/simulators.h"
@@ -55,7 +55,7 @@ core::Body trapezoid(int n) {
 /// Every node moved by up to 0.05 d. A perfect lattice body can stand where it should buckle, until
 /// rounding tips it over.
 core::Body imperfect(core::Body body) {
-  core::RandomStream random(core::Purpose::test, 3, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, 3, 0, 0);
   for (auto* coordinates : {&body.x, &body.y})
     for (double& value : *coordinates) value += 0.05 * (2 * random.uniform() - 1);
   core::set_rest_from_nodes(body);

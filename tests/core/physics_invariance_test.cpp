@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/random.h"
-#include "core/scene.h"
+#include "metamorph/random.h"
+#include "metamorph/scene.h"
 #include "tests/bodies.h"
 #include "tests/physics.h"
 #include "tests/simulators.h"
@@ -200,7 +200,7 @@ TEST_P(Invariance, OfUnitsBitByBit) {
 /// The body with its nodes renamed: node i becomes name[i]. Triangles are shuffled and begin at
 /// another corner; springs are in order again, as a Body demands.
 core::Body renamed(const core::Body& body, const std::vector<int>& name,
-                   core::RandomStream& random) {
+                   evolve::RandomStream& random) {
   core::Body result = body;
   for (std::size_t i = 0; i < name.size(); ++i) {
     const auto j = static_cast<std::size_t>(name[i]);
@@ -238,7 +238,7 @@ core::Body renamed(const core::Body& body, const std::vector<int>& name,
 /// How far the nodes of a renamed body end from where they end under their old names.
 double renaming_difference(const Simulator& simulator, const core::Body& body,
                            const core::Scene& scene) {
-  core::RandomStream random(core::Purpose::test, 5, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, 5, 0, 0);
   std::vector<int> name(body.x.size());
   std::iota(name.begin(), name.end(), 0);
   for (std::size_t n = name.size(); n > 1; --n)

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/reference_system_detail.h"
-#include "core/scene.h"
+#include "core/reference/system.h"
+#include "metamorph/scene.h"
 #include "tests/bodies.h"
 #include "tests/physics.h"
 #include "tests/tolerance.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/reference_system_detail.h"
-#include "core/scene.h"
+#include "core/reference/system.h"
+#include "metamorph/scene.h"
 #include "tests/bodies.h"
 #include "tests/physics.h"
 #include "tests/reference_methods.h"

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "core/outline_crossing.h"
-#include "core/scene.h"
-#include "core/solid_pairs.h"
-#include "core/status.h"
+#include "core/body/outline_crossing.h"
+#include "core/locomotion/solid_pairs.h"
 #include "kernels/reference/self_collision.h"
+#include "metamorph/scene.h"
+#include "metamorph/status.h"
 #include "tests/bodies.h"
 #include "tests/physics.h"
 #include "tests/simulators.h"

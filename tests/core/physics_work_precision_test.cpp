@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/reference_simulation.h"
-#include "core/scene.h"
-#include "core/status.h"
+#include "metamorph/reference.h"
+#include "metamorph/scene.h"
+#include "metamorph/status.h"
 #include "tests/bodies.h"
 #include "tests/physics.h"
 #include "tests/simulators.h"

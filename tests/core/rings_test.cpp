@@ -1,6 +1,6 @@
 // Rings hold every spring twice, every triangle three times, every outline edge twice.
 
-#include "core/rings_detail.h"
+#include "core/locomotion/rings.h"
 
 #include <gtest/gtest.h>
 

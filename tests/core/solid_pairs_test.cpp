@@ -1,4 +1,4 @@
-#include "core/solid_pairs.h"
+#include "core/locomotion/solid_pairs.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <set>
 #include <vector>
 
-#include "core/body.h"
-#include "core/scene.h"
-#include "core/segment_distance.h"
+#include "core/locomotion/segment_distance.h"
 #include "kernels/reference/self_collision.h"
+#include "metamorph/body.h"
+#include "metamorph/scene.h"
 #include "tests/bodies.h"
 #include "tests/tolerance.h"
 

@@ -1,4 +1,4 @@
-#include "core/stability.h"
+#include "metamorph/stability.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/reference_stability.h"
-#include "core/reference_system_detail.h"
+#include "core/reference/stability.h"
+#include "core/reference/system.h"
 #include "tests/bodies.h"
 #include "tests/physics.h"
 #include "tests/tolerance.h"

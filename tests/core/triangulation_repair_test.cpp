@@ -1,4 +1,4 @@
-#include "core/triangulation_repair.h"
+#include "core/development/triangulation_repair.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,8 +7,8 @@
 #include <numeric>
 #include <vector>
 
-#include "core/delaunay.h"
-#include "core/random.h"
+#include "core/development/delaunay.h"
+#include "metamorph/random.h"
 
 namespace metamorph::core {
 namespace {
@@ -17,9 +17,9 @@ namespace {
 struct Swarm {
   std::vector<double> x, y;
   std::vector<Index> previous;
-  RandomStream random;
+  evolve::RandomStream random;
 
-  explicit Swarm(std::uint64_t seed) : random(Purpose::test, seed, 0, 0) {}
+  explicit Swarm(std::uint64_t seed) : random(evolve::Purpose::test, seed, 0, 0) {}
 
   double number(double range) { return range * (2 * random.uniform() - 1); }
 
@@ -161,7 +161,7 @@ TEST(TriangulationRepair, APointThatLeavesOrEntersTheHullFlipsItsWay) {
 }
 
 TEST(Predicates, AgreeWithTheExactOnesNearTheirZeros) {
-  RandomStream random(Purpose::test, 9, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, 9, 0, 0);
   const auto nearly = [&](double value) {
     // Within a few units in the last place: most filters fail, many signs are 0.
     return value + (static_cast<double>(random.below(5)) - 2) * 0x1p-50;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "core/body.h"
 #include "evolve/run/nearby_starts.h"
+#include "metamorph/body.h"
 #include "tests/evolve/files.h"
 #include "tests/evolve/program.h"
 #include "tests/evolve/runs.h"

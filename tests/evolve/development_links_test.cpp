@@ -7,11 +7,12 @@
 #include <iostream>
 #include <vector>
 
-#include "core/development.h"
+#include "core/development/link_check.h"
 #include "evolve/files/genome_file.h"
 #include "evolve/genetics/innovations.h"
 #include "evolve/genetics/mutation.h"
 #include "evolve/genetics/seed_genome.h"
+#include "metamorph/development.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -26,7 +27,7 @@ class Genomes {
 class RandomGenomes : public Genomes {
  public:
   Genome next() override {
-    core::RandomStream random(core::Purpose::test, 91, 0, individual_++);
+    evolve::RandomStream random(evolve::Purpose::test, 91, 0, individual_++);
     return seed_genome(NeatSettings{}, random);
   }
 
@@ -47,7 +48,7 @@ class MutatedGenomes : public Genomes {
   }
 
   Genome next() override {
-    core::RandomStream random(core::Purpose::test, 92, 0, individual_);
+    evolve::RandomStream random(evolve::Purpose::test, 92, 0, individual_);
     Genome genome = evolved_.at(individual_ % evolved_.size());
     const std::size_t mutations = (individual_ / evolved_.size()) % 9;
     ++individual_;
@@ -75,8 +76,8 @@ void check_developments(Genomes& genomes, int wanted) {
   while (grown < wanted) {
     std::vector<core::Network> networks;
     for (int i = 0; i < 32; ++i) networks.push_back(compile(genomes.next()));
-    std::vector<core::LinkCheck> checks(networks.size());
-    const auto embryos = core::develop(networks, rules, stages, 0, checks);
+    const auto checks = core::check_links(networks, rules, stages, 0);
+    const auto embryos = core::develop(networks, rules, stages, 0);
     for (std::size_t i = 0; i < networks.size(); ++i, ++developments) {
       ASSERT_TRUE(checks[i].ok()) << "genome " << developments << ": "
                                   << difference_text(checks[i]);
@@ -110,23 +111,6 @@ TEST(DevelopmentLinks, SlowOfManyRandomGenomes) {
 TEST(DevelopmentLinks, SlowOfManyEvolvedGenomes) {
   MutatedGenomes genomes;
   check_developments(genomes, 1200);
-}
-
-TEST(DevelopmentLinks, CheckingThemChangesNothing) {
-  MutatedGenomes genomes;
-  std::vector<core::Network> networks;
-  for (int i = 0; i < 6; ++i) networks.push_back(compile(genomes.next()));
-  const std::vector<int> stages = {605, 1200};
-  std::vector<core::LinkCheck> checks(networks.size());
-  const auto with = core::develop(networks, {}, stages, 2, checks);
-  const auto without = core::develop(networks, {}, stages, 1);
-  for (std::size_t i = 0; i < networks.size(); ++i) {
-    for (const std::size_t s : {0u, 1u}) {
-      EXPECT_EQ(with[i][s].x, without[i][s].x);
-      EXPECT_EQ(with[i][s].y, without[i][s].y);
-      EXPECT_EQ(with[i][s].links, without[i][s].links);
-    }
-  }
 }
 
 }  // namespace

@@ -8,15 +8,15 @@
 #include <utility>
 #include <vector>
 
-#include "core/body.h"
-#include "core/development.h"
-#include "core/extract_body.h"
-#include "core/locomotion.h"
-#include "core/random.h"
-#include "core/scene.h"
-#include "core/status.h"
 #include "evolve/genetics/genome.h"
 #include "evolve/genetics/population.h"
+#include "metamorph/body.h"
+#include "metamorph/development.h"
+#include "metamorph/extraction.h"
+#include "metamorph/locomotion.h"
+#include "metamorph/random.h"
+#include "metamorph/scene.h"
+#include "metamorph/status.h"
 #include "tests/tolerance.h"
 
 // Can evolution earn distance from numerical error? Searches that select for nothing else: bodies
@@ -35,7 +35,7 @@ namespace {
 constexpr double nudge = 0.05;  ///< d
 
 core::Body nudged(core::Body body, std::uint32_t start) {
-  core::RandomStream random(core::Purpose::test, 11, 0, start);
+  evolve::RandomStream random(evolve::Purpose::test, 11, 0, start);
   for (auto* coordinates : {&body.x, &body.y})
     for (double& value : *coordinates) value += nudge * (2 * random.uniform() - 1);
   return body;

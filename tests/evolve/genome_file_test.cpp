@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "core/random.h"
+#include "metamorph/random.h"
 #include "tests/evolve/files.h"
 
 namespace metamorph::evolve {
@@ -21,7 +21,7 @@ std::vector<std::string> faults(const std::string& text) {
 
 /// Inputs, outputs and `hidden` hidden nodes; every input to every hidden node to every output.
 Genome layered(int hidden, std::uint64_t seed) {
-  core::RandomStream random(core::Purpose::test, seed, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, seed, 0, 0);
   Genome genome;
   for (int id = 0; id < 13 + hidden; ++id) {
     genome.nodes.push_back(

@@ -68,7 +68,7 @@ TEST(Compile, AgreesWithARecursiveEvaluator) {
   // same and left-out nodes add nothing, hence no tolerance.
   NeatSettings settings = restless();
   settings.hidden_nodes = 2;
-  core::RandomStream stream = test_stream(1);
+  evolve::RandomStream stream = test_stream(1);
   for (const int rounds : {0, 3, 15, 40}) {
     for (const Genome& genome : wander(settings, 50, rounds, static_cast<std::uint32_t>(rounds))) {
       Inputs inputs;
@@ -147,7 +147,7 @@ TEST(CheckGenome, ACycleBehindACycleIsFoundOnce) {
 
 TEST(CheckGenome, SurvivesAnything) {
   EXPECT_EQ(check(Genome{}).size(), static_cast<std::size_t>(first_hidden));
-  core::RandomStream stream = test_stream(3);
+  evolve::RandomStream stream = test_stream(3);
   for (int i = 0; i < 2000; ++i) {
     Genome genome;
     const auto any = [&] { return static_cast<int>(stream.below(20)) - 2; };

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <sstream>
 
-#include "core/automatic_step.h"
-#include "core/locomotion.h"
-#include "core/stability.h"
 #include "evolve/files/animat_file.h"
 #include "evolve/files/body_file.h"
 #include "evolve/files/genome_file.h"
 #include "evolve/files/outcome_json.h"
+#include "metamorph/automatic_step.h"
+#include "metamorph/locomotion.h"
+#include "metamorph/stability.h"
 #include "tests/bodies.h"
 #include "tests/evolve/program.h"
 

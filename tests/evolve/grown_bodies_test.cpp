@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/development.h"
-#include "core/extract_body.h"
 #include "evolve/files/genome_file.h"
+#include "metamorph/development.h"
+#include "metamorph/extraction.h"
 
 namespace metamorph::evolve {
 namespace {

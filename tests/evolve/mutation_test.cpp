@@ -24,7 +24,7 @@ void expect_frequency(int count, int trials, double probability) {
 }
 
 TEST(SeedGenome, HasTheTopologyOfTheModel) {
-  core::RandomStream stream = test_stream(0);
+  evolve::RandomStream stream = test_stream(0);
   const Genome genome = seed_genome(NeatSettings{}, stream);
   EXPECT_THAT(check(genome), IsEmpty());
   EXPECT_EQ(genome.nodes.size(), 21u);
@@ -38,7 +38,7 @@ TEST(SeedGenome, HasTheTopologyOfTheModel) {
 }
 
 TEST(SeedGenome, WeightsAreTriangular) {
-  core::RandomStream stream = test_stream(1);
+  evolve::RandomStream stream = test_stream(1);
   const int n = 111 * 300;
   double sum = 0, square = 0;
   for (int i = 0; i < 300; ++i) {
@@ -73,7 +73,7 @@ TEST(Mutation, ThousandsInARowKeepEveryInvariant) {
 
 TEST(Mutation, RouletteFollowsTheRates) {
   const NeatSettings settings;
-  core::RandomStream stream = test_stream(2);
+  evolve::RandomStream stream = test_stream(2);
   const Genome seed = seed_genome(settings, stream);
   const int trials = 40000;
   std::map<MutationKind, int> count;
@@ -108,7 +108,7 @@ TEST(Mutation, AnImpossibleKindIsDrawnAgain) {
   // One bias link: no link to split, and the last link stays.
   const Genome lonely = hand_made({}, {{0, bias_input, 6, 1}});
   const NeatSettings settings;
-  core::RandomStream stream = test_stream(4);
+  evolve::RandomStream stream = test_stream(4);
   const int trials = 20000;
   std::map<MutationKind, int> count;
   for (int i = 0; i < trials; ++i) {
@@ -127,7 +127,7 @@ TEST(Mutation, EndsWhereNothingIsPossible) {
   const Genome unlinked = hand_made({}, {});
   Genome genome = unlinked;
   StructuralChange change;
-  core::RandomStream stream = test_stream(5);
+  evolve::RandomStream stream = test_stream(5);
   EXPECT_EQ(mutate(genome, change, settings, stream), MutationKind::none);
   EXPECT_EQ(genome, unlinked);
   EXPECT_EQ(change, StructuralChange{});
@@ -150,7 +150,7 @@ TEST(AddLink, DrawsUniformlyAmongThePossiblePairs) {
   // mixture must be uniform.
   NeatSettings settings;
   settings.mutate_weights = settings.add_node = settings.remove_link = 0;
-  core::RandomStream stream = test_stream(6);
+  evolve::RandomStream stream = test_stream(6);
   for (const std::set<std::pair<int, int>>& free :
        {std::set<std::pair<int, int>>{{0, 6}, {3, 9}, {5, 12}},
         std::set<std::pair<int, int>>{{0, 6}, {0, 7}, {0, 8}, {1, 6}, {1, 7}, {1, 8}, {2, 9}}}) {
@@ -179,7 +179,7 @@ TEST(AddLink, RejectsCycles) {
   const Genome chain = hand_made({13, 14, 15}, {{0, 13, 14, 1}, {1, 14, 15, 1}});
   NeatSettings settings;
   settings.mutate_weights = settings.add_node = settings.remove_link = 0;
-  core::RandomStream stream = test_stream(7);
+  evolve::RandomStream stream = test_stream(7);
   std::set<std::pair<int, int>> hidden_pairs;
   for (int i = 0; i < 5000; ++i) {
     Genome genome = chain;
@@ -197,7 +197,7 @@ TEST(AddNode, SplitsALinkThatIsNotTheBias) {
   NeatSettings splitting;
   splitting.mutate_weights = splitting.add_link = splitting.remove_link = 0;
   const Genome parent = hand_made({}, {{0, bias_input, 6, 3}, {1, 2, 7, -4}});
-  core::RandomStream stream = test_stream(8);
+  evolve::RandomStream stream = test_stream(8);
   for (int i = 0; i < 100; ++i) {
     Genome child = parent;
     StructuralChange change;
@@ -213,7 +213,7 @@ TEST(AddNode, SplitsALinkThatIsNotTheBias) {
 TEST(RemoveLink, TakesUnlinkedHiddenNodesAlong) {
   NeatSettings settings;
   settings.mutate_weights = settings.add_link = settings.add_node = 0;
-  core::RandomStream stream = test_stream(9);
+  evolve::RandomStream stream = test_stream(9);
   std::set<std::size_t> nodes_left;
   for (int i = 0; i < 200; ++i) {
     Genome genome = hand_made({13}, {{0, 0, 13, 1}, {1, 0, 6, 1}});
@@ -254,7 +254,7 @@ TEST(Crossover, TakesTheStructureOfTheFitter) {
   const Genome fitter =
       hand_made({13}, {{0, 0, 13, 1}, {2, 13, 6, 2}, {3, 1, 13, 3}, {9, 2, 13, 4}});
   const Genome other = hand_made({14}, {{0, 0, 13, -1}, {1, 0, 14, -5}, {3, 1, 13, -3}});
-  core::RandomStream stream = test_stream(10);
+  evolve::RandomStream stream = test_stream(10);
   EXPECT_EQ(cross(fitter, other, true, stream),
             hand_made({13}, {{0, 0, 13, 0}, {2, 13, 6, 2}, {3, 1, 13, 0}, {9, 2, 13, 4}}));
   const int trials = 10000;

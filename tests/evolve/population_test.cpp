@@ -11,10 +11,10 @@
 #include <set>
 #include <stdexcept>
 
-#include "core/random.h"
 #include "evolve/genetics/distance.h"
 #include "evolve/genetics/reproduction.h"
 #include "evolve/genetics/species.h"
+#include "metamorph/random.h"
 #include "tests/evolve/random_genomes.h"
 
 namespace metamorph::evolve {
@@ -58,8 +58,8 @@ std::map<std::string, FitnessRule> regimes() {
        }},
       {"random",
        [](const PopulationState& s) {
-         core::RandomStream stream(core::Purpose::test, 1, static_cast<std::uint32_t>(s.generation),
-                                   0);
+         evolve::RandomStream stream(evolve::Purpose::test, 1,
+                                     static_cast<std::uint32_t>(s.generation), 0);
          return each(s, [&](std::size_t) { return stream.uniform(); });
        }},
       {"falling",

@@ -3,17 +3,17 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/random.h"
 #include "evolve/genetics/crossover.h"
 #include "evolve/genetics/innovations.h"
 #include "evolve/genetics/mutation.h"
 #include "evolve/genetics/population.h"
 #include "evolve/genetics/seed_genome.h"
+#include "metamorph/random.h"
 
 namespace metamorph::evolve::testing {
 
-inline core::RandomStream test_stream(std::uint32_t index) {
-  return core::RandomStream(core::Purpose::test, 2016, 0, index);
+inline evolve::RandomStream test_stream(std::uint32_t index) {
+  return evolve::RandomStream(evolve::Purpose::test, 2016, 0, index);
 }
 
 /// Settings under which structure changes as often as weights.
@@ -28,7 +28,7 @@ inline NeatSettings restless() {
 template <class Visit>
 std::vector<Genome> wander(const NeatSettings& settings, int count, int rounds, std::uint32_t index,
                            Visit visit) {
-  core::RandomStream stream = test_stream(index);
+  evolve::RandomStream stream = test_stream(index);
   std::vector<Genome> genomes;
   for (int i = 0; i < count; ++i) genomes.push_back(seed_genome(settings, stream));
   int next_innovation = static_cast<int>(genomes.front().links.size());

@@ -138,7 +138,7 @@ double brute_force(const std::vector<std::vector<double>>& points, std::size_t q
 }
 
 TEST(Novelty, AgreesWithBruteForceForAnyThreadCount) {
-  core::RandomStream stream = test_stream(1);
+  evolve::RandomStream stream = test_stream(1);
   for (const std::size_t dimensions : {std::size_t{2}, std::size_t{4}}) {
     for (const std::size_t archived : {std::size_t{0}, std::size_t{5}, std::size_t{700}}) {
       std::vector<std::vector<double>> behaviours(60);

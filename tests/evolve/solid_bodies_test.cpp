@@ -8,15 +8,15 @@
 #include <string>
 #include <vector>
 
-#include "core/development.h"
-#include "core/extract_body.h"
-#include "core/locomotion.h"
-#include "core/outline_crossing.h"
-#include "core/reference_simulation.h"
-#include "core/scene.h"
-#include "core/status.h"
+#include "core/body/outline_crossing.h"
 #include "evolve/files/genome_file.h"
 #include "evolve/genetics/genome.h"
+#include "metamorph/development.h"
+#include "metamorph/extraction.h"
+#include "metamorph/locomotion.h"
+#include "metamorph/reference.h"
+#include "metamorph/scene.h"
+#include "metamorph/status.h"
 #include "tests/tolerance.h"
 
 namespace metamorph::evolve {

@@ -7,12 +7,12 @@
 #include <array>
 #include <cmath>
 
-#include "core/development.h"
-#include "core/extract_body.h"
-#include "core/locomotion.h"
 #include "evolve/run/audit.h"
 #include "evolve/run/displaced.h"
 #include "evolve/run/run_reader.h"
+#include "metamorph/development.h"
+#include "metamorph/extraction.h"
+#include "metamorph/locomotion.h"
 #include "tests/bodies.h"
 #include "tests/evolve/files.h"
 #include "tests/evolve/runs.h"

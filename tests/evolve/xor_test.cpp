@@ -52,7 +52,7 @@ TEST(Neat, SolvesXorWhereRandomSearchDoesNot) {
     }
     EXPECT_LT(best, 1) << "seed " << seed;
   }
-  core::RandomStream stream = testing::test_stream(77);
+  evolve::RandomStream stream = testing::test_stream(77);
   double best = 4;
   for (int i = 0; i < generations * settings.population; ++i) {
     best = std::min(best, xor_error(seed_genome(settings, stream)));

@@ -1,8 +1,8 @@
 #include <cstdio>
 
-#include "core/body.h"
-#include "core/scene.h"
-#include "core/status.h"
+#include "metamorph/body.h"
+#include "metamorph/scene.h"
+#include "metamorph/status.h"
 
 int main() {
   using namespace metamorph::core;

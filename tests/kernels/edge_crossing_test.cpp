@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/aligned_detail.h"
-#include "core/predicates.h"
-#include "core/random.h"
+#include "core/body/aligned.h"
+#include "core/body/predicates.h"
+#include "metamorph/random.h"
 
 namespace metamorph::tests {
 namespace {
@@ -109,7 +109,7 @@ bool nearly_crosses(const Outline& outline, double share) {
 
 /// A star around a place, of n corners between radius 1 - `depth` and 1, each moved along the rim
 /// by up to `stray` of the distance of two.
-std::vector<Point> star(core::RandomStream& random, int n, double depth, double stray, double x,
+std::vector<Point> star(evolve::RandomStream& random, int n, double depth, double stray, double x,
                         double y) {
   std::vector<Point> points;
   for (int i = 0; i < n; ++i) {
@@ -122,7 +122,7 @@ std::vector<Point> star(core::RandomStream& random, int n, double depth, double 
 
 template <class T>
 void compare_with_exact_predicates() {
-  core::RandomStream random(core::Purpose::test, 1, 2, 3);
+  evolve::RandomStream random(evolve::Purpose::test, 1, 2, 3);
   // In lanes a product of two differences is rounded three times: 16 round-offs are beyond doubt.
   const double doubt = 32 * static_cast<double>(std::numeric_limits<T>::epsilon());
   int crossed = 0, whole = 0;
@@ -151,7 +151,7 @@ TEST(EdgeCrossing, IsSeenWheneverThereIsOneInDouble) { compare_with_exact_predic
 TEST(EdgeCrossing, TouchingIsSeen) {
   // Polygons with corners on a coarse grid: corners on edges, edges along each other, corners at
   // one place.
-  core::RandomStream random(core::Purpose::test, 1, 2, 4);
+  evolve::RandomStream random(evolve::Purpose::test, 1, 2, 4);
   int touched = 0;
   for (int attempt = 0; attempt < 3000; ++attempt) {
     Outline outline;
@@ -174,7 +174,7 @@ TEST(EdgeCrossing, EveryPairIsLookedAt) {
   for (std::size_t n = 4; n < 40; ++n)
     for (std::size_t tooth = 0; tooth < n; ++tooth) {
       Outline outline;
-      core::RandomStream random(core::Purpose::test, 1, 2, 5);
+      evolve::RandomStream random(evolve::Purpose::test, 1, 2, 5);
       std::vector<Point> polygon = star(random, static_cast<int>(n), 0, 0, 0, 0);
       outline.add(polygon);
       ASSERT_FALSE(may_cross<float>(outline));

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/random.h"
 #include "kernels/reference/gravity.h"
+#include "metamorph/random.h"
 #include "tests/kernels/points.h"
 #include "tests/tolerance.h"
 
@@ -83,7 +83,7 @@ TEST(Drag, TerminalVelocityIsWhereDragCarriesTheWeight) {
 
 /// A random edge with random velocities.
 Points random_rod(std::uint32_t seed) {
-  core::RandomStream random(core::Purpose::test, seed, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, seed, 0, 0);
   Points points(2);
   for (auto* values : {&points.x, &points.y, &points.vx, &points.vy})
     for (double& value : *values) value = 4 * random.uniform() - 2;

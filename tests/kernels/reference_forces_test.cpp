@@ -4,13 +4,13 @@
 #include <functional>
 #include <vector>
 
-#include "core/body.h"
-#include "core/scene.h"
-#include "core/solid_pairs.h"
+#include "core/locomotion/solid_pairs.h"
 #include "kernels/reference/actuation.h"
 #include "kernels/reference/pressure.h"
 #include "kernels/reference/self_collision.h"
 #include "kernels/reference/spring.h"
+#include "metamorph/body.h"
+#include "metamorph/scene.h"
 #include "tests/bodies.h"
 #include "tests/kernels/points.h"
 #include "tests/tolerance.h"
@@ -21,7 +21,7 @@ namespace {
 /// A random body in a random state: displaced by up to 0.1 d, speeds up to 1.
 struct Tangle {
   explicit Tangle(std::uint64_t seed) : body(blob_body(40, seed)), points(body.x.size()) {
-    core::RandomStream random(core::Purpose::test, seed, 1, 0);
+    evolve::RandomStream random(evolve::Purpose::test, seed, 1, 0);
     for (std::size_t i = 0; i < points.x.size(); ++i) {
       points.x[i] = body.x[i] + 0.1 * (2 * random.uniform() - 1);
       points.y[i] = body.y[i] + 0.1 * (2 * random.uniform() - 1);

@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "core/random.h"
 #include "kernels/reference/gravity.h"
 #include "kernels/reference/solid.h"
 #include "kernels/reference/spring.h"
+#include "metamorph/random.h"
 #include "tests/kernels/points.h"
 #include "tests/tolerance.h"
 
@@ -124,7 +124,7 @@ TEST(Ground, StopsWhatWouldSinkAndNothingElse) {
 }
 
 TEST(Ground, PushesOnlyUpwardsAndTakesEnergy) {
-  core::RandomStream random(core::Purpose::test, 2, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, 2, 0, 0);
   int met = 0;
   for (int i = 0; i < 10000; ++i) {
     const double y = 0.2 * random.triangular(), vx = random.triangular(), vy = random.triangular();
@@ -144,7 +144,7 @@ TEST(Ground, PushesOnlyUpwardsAndTakesEnergy) {
 TEST(Ground, ADroppedBlockComesToRestOnItWithoutEverBeingBelow) {
   // One that falls is stopped within the two steps around its landing, whatever its speed: there is
   // nothing elastic. Half a step before the first midpoint at the ground it is above it.
-  core::RandomStream random(core::Purpose::test, 3, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, 3, 0, 0);
   for (int i = 0; i < 100; ++i) {
     Block block(0);
     block.point.y[0] = random.uniform();
@@ -166,7 +166,7 @@ TEST(Ground, ADroppedBlockComesToRestOnItWithoutEverBeingBelow) {
 }
 
 TEST(Friction, StaysInItsConeAndNeverTurnsTheMotion) {
-  core::RandomStream random(core::Purpose::test, 1, 0, 0);
+  evolve::RandomStream random(evolve::Purpose::test, 1, 0, 0);
   for (int i = 0; i < 10000; ++i) {
     const double v = 2 * random.triangular();
     const double limit = random.uniform();

@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "core/aligned_detail.h"
-#include "core/random.h"
+#include "core/body/aligned.h"
 #include "kernels/reference/solid.h"
 #include "kernels/self_collision.h"
 #include "kernels/stop.h"
+#include "metamorph/random.h"
 
 namespace metamorph::tests {
 
@@ -41,7 +41,7 @@ struct Cloud {
 /// `edges` edges of length about 1 and `nodes` loose nodes in a box of `size` above y = 0, of
 /// speeds up to `speed` per coordinate; nothing is nearer than 0.01. Thresholds: 0.3 or, of every
 /// fourth pair, what it is apart by.
-inline Cloud random_cloud(core::RandomStream& random, int edges, int nodes, double size,
+inline Cloud random_cloud(evolve::RandomStream& random, int edges, int nodes, double size,
                           double speed) {
   namespace ref = kernels::reference;
   const auto rounded = [](double value) { return static_cast<double>(static_cast<float>(value)); };

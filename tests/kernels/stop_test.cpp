@@ -71,7 +71,7 @@ TEST(LeastSeparation, LetsRoomBeUsedUpAndLeadsBackNoFasterThanItCame) {
 }
 
 TEST_P(Stop, LeavesAloneWhatDoesNotComeTooNear) {
-  core::RandomStream random(core::Purpose::test, 1, 0, 1);
+  evolve::RandomStream random(evolve::Purpose::test, 1, 0, 1);
   int alone = 0;
   for (int i = 0; i < 2000; ++i) {
     const Cloud cloud = random_cloud(random, 1, 1, 2, 1);
@@ -86,7 +86,7 @@ TEST_P(Stop, LeavesAloneWhatDoesNotComeTooNear) {
 }
 
 TEST_P(Stop, OnePairKeepsItsLeastSeparation) {
-  core::RandomStream random(core::Purpose::test, 1, 0, 2);
+  evolve::RandomStream random(evolve::Purpose::test, 1, 0, 2);
   int acted = 0, led_back = 0;
   for (int i = 0; i < 5000; ++i) {
     const Cloud before = random_cloud(random, 1, 1, 0.6, 3);
@@ -105,7 +105,7 @@ TEST_P(Stop, HardlyEverDoesAPairPassThroughAtSpeedsThatStepsResolve) {
   // Drifts of up to an eighth of d per coordinate, at angular speeds no body has: an impulse at the
   // place of the least gap cannot always turn round, without adding energy, what meets elsewhere on
   // the edge. What would pass through otherwise must be rare to the third digit.
-  core::RandomStream random(core::Purpose::test, 1, 0, 3);
+  evolve::RandomStream random(evolve::Purpose::test, 1, 0, 3);
   int would = 0, passed = 0;
   for (int i = 0; i < 40000; ++i) {
     const Cloud before = random_cloud(random, 1, 1, 0.8, 1);
@@ -118,7 +118,7 @@ TEST_P(Stop, HardlyEverDoesAPairPassThroughAtSpeedsThatStepsResolve) {
 
 TEST_P(Stop, APairThatMovesHeadOnNeverPassesThrough) {
   // An edge that does not turn and a node that does not slide along it, at any speed.
-  core::RandomStream random(core::Purpose::test, 1, 0, 10);
+  evolve::RandomStream random(evolve::Purpose::test, 1, 0, 10);
   int would = 0;
   for (int i = 0; i < 5000; ++i) {
     Cloud before = random_cloud(random, 1, 1, 0.8, 8);
@@ -134,7 +134,7 @@ TEST_P(Stop, APairThatMovesHeadOnNeverPassesThrough) {
 }
 
 TEST_P(Stop, KeepsMomentumAndAngularMomentum) {
-  core::RandomStream random(core::Purpose::test, 1, 0, 4);
+  evolve::RandomStream random(evolve::Purpose::test, 1, 0, 4);
   int acted = 0;
   for (int i = 0; i < 1000; ++i) {
     const Cloud before = random_cloud(random, 4, 4, 2, 2);
@@ -158,7 +158,7 @@ TEST_P(Stop, KeepsMomentumAndAngularMomentum) {
 }
 
 TEST_P(Stop, NeverAddsEnergy) {
-  core::RandomStream random(core::Purpose::test, 1, 0, 5);
+  evolve::RandomStream random(evolve::Purpose::test, 1, 0, 5);
   for (int i = 0; i < 3000; ++i) {
     const bool ground = i % 2 != 0;
     const double speed = 0.1 * std::exp2(6 * random.uniform());
@@ -170,7 +170,7 @@ TEST_P(Stop, NeverAddsEnergy) {
 }
 
 TEST_P(Stop, PushesNothingIntoTheGround) {
-  core::RandomStream random(core::Purpose::test, 1, 0, 6);
+  evolve::RandomStream random(evolve::Purpose::test, 1, 0, 6);
   int held = 0;
   for (int i = 0; i < 1000; ++i) {
     Cloud before = random_cloud(random, 4, 4, 1, 2);
@@ -190,7 +190,7 @@ TEST_P(Stop, PushesNothingIntoTheGround) {
 TEST_P(Stop, SweepsSettleWhatManyPairsWant) {
   // One pair undoes a part of what another has got. What is left of all that was missing after four
   // sweeps is little; that of a single sweep, pair by pair, would be half and more.
-  core::RandomStream random(core::Purpose::test, 1, 0, 7);
+  evolve::RandomStream random(evolve::Purpose::test, 1, 0, 7);
   double wanted = 0, left = 0;
   for (int i = 0; i < 1000; ++i) {
     const Cloud before = random_cloud(random, 4, 4, 2, 2);
@@ -217,7 +217,7 @@ double largest_difference(const Cloud& before, bool ground) {
 
 template <class T>
 void expect_agreement(double round_off) {
-  core::RandomStream random(core::Purpose::test, 1, 0, 8);
+  evolve::RandomStream random(evolve::Purpose::test, 1, 0, 8);
   int acted = 0;
   for (int i = 0; i < 1000; ++i) {
     const Cloud before = random_cloud(random, 4, 4, 2, 2);
@@ -235,7 +235,7 @@ TEST(FastStop, AgreesWithThePlainOneInDouble) { expect_agreement<double>(round_o
 TEST(FastStop, AgreesWithThePlainOneInFloat) { expect_agreement<float>(round_off_32); }
 
 TEST(FastStop, LeadsRecordsWhereTheNewVelocitiesDoAndBoundsWhatItChanged) {
-  core::RandomStream random(core::Purpose::test, 1, 0, 9);
+  evolve::RandomStream random(evolve::Purpose::test, 1, 0, 9);
   int acted = 0;
   for (int i = 0; i < 200; ++i) {
     const Cloud before = random_cloud(random, 3, 3, 1.5, 2);
