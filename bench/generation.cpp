@@ -4,16 +4,15 @@
 #include <omp.h>
 
 #include <fstream>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include "bench/bodies.h"
 #include "bench/measure.h"
 #include "evolve/experiment/experiment_file.h"
-#include "evolve/run/evaluate.h"
 #include "evolve/search/novelty.h"
-#include "evolve/search/search.h"
+#include "evolve/search/registry.h"
+#include "metamorph/evaluator.h"
 #include "metamorph/random.h"
 
 namespace metamorph::bench {
@@ -63,24 +62,22 @@ void generation(benchmark::State& state, const std::string& larva, const std::st
   const evolve::Experiment setting = experiment(larva, adult);
   const evolve::PopulationState start = evolved_population(setting.neat);
   const std::vector<std::uint8_t> every_trial(setting.trials.size(), 1);
-  std::vector<std::int64_t> ids(population);
-  std::iota(ids.begin(), ids.end(), 0);
   evolve::EvaluationSeconds seconds;
   std::vector<evolve::Evaluated> individuals;
   evolve::EvaluationWork work;
   forget_peak();
   for (auto _ : state) {
-    evolve::Evaluator evaluator(setting, threads);
-    individuals = evaluator.evaluate(start.genomes, every_trial, 0, seconds);
+    evolve::Evaluator evaluator(evolve::rules_of(setting), threads);
+    std::vector<core::Network> networks;
+    for (const evolve::Genome& genome : start.genomes) networks.push_back(compile(genome));
+    individuals = evaluator.evaluate(networks, every_trial, 0);
     work += evaluator.work();
+    seconds += evaluator.seconds();
+    const auto search = evolve::make_search(evolve::search_setup_of(setting, threads));
     std::vector<evolve::Evaluation> evaluations;
-    for (const auto& individual : individuals) evaluations.push_back(individual.evaluation);
-    evolve::SearchState search = evolve::initial_state(setting.search);
-    const auto scores = evolve::score_generation(setting.search, search, evaluations, ids, 1,
-                                                 setting.generations, threads);
-    evolve::PopulationState next = start;
-    evolve::next_generation(next, setting.neat, scores, false, threads);
-    benchmark::DoNotOptimize(next);
+    for (const auto& one : individuals) evaluations.push_back(evolve::evaluation_of(one));
+    benchmark::DoNotOptimize(search->tell(evaluations));
+    benchmark::DoNotOptimize(search->ask());
   }
   report(state, 1, "generation");
   state.counters["peak_MB"] = peak_memory() / 1e6;
@@ -93,8 +90,8 @@ void generation(benchmark::State& state, const std::string& larva, const std::st
   for (std::size_t t = 0; t < setting.trials.size(); ++t) {
     double cells = 0, steps = 0;
     for (const auto& individual : individuals) {
-      cells += individual.evaluation.trials[t].cells;
-      steps += static_cast<double>(individual.evaluation.trials[t].steps);
+      cells += individual.trials[t].cells;
+      steps += static_cast<double>(individual.trials[t].steps);
     }
     state.counters[setting.trials[t].name + "_cells"] = cells / population;
     state.counters[setting.trials[t].name + "_steps"] = steps / population;
@@ -133,7 +130,7 @@ void reproduction(benchmark::State& state) {
 }
 
 void novelty(benchmark::State& state) {
-  const evolve::SearchSettings settings;
+  const evolve::NoveltySettings settings;
   evolve::RandomStream random(evolve::Purpose::test, 2, 0, 0);
   const auto behaviour = [&] {
     std::vector<double> place(4);

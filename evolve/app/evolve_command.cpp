@@ -86,7 +86,7 @@ std::unique_ptr<Record> open_record(const Arguments& given) {
     const int generations = parse_experiment(to_toml(recorded), given.resume,
                                              {{"--generations", "generations", given.generations}})
                                 .generations;
-    check_new_generations(recorded, record->checkpoint().population.generation, generations);
+    check_new_generations(recorded, record->generations_done(), generations);
     if (generations != recorded.generations) record->change_generations(generations);
   }
   return record;

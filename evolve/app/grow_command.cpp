@@ -85,7 +85,7 @@ void draw(const std::vector<Grown>& all, int larva_steps, const fs::path& file) 
     embryos.push_back(grown.embryo);
     bodies.push_back(grown.extraction.body);
   }
-  write_sheet(development_sheet(embryos, bodies, larva_steps), file.string());
+  write_sheet(development_sheet(embryos, bodies, {&larva_steps, 1}), file.string());
 }
 
 void print(const std::vector<Grown>& all, bool as_json) {

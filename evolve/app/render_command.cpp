@@ -15,7 +15,6 @@
 #include "evolve/files/genome_file.h"
 #include "evolve/files/input_error.h"
 #include "evolve/files/output_file.h"
-#include "evolve/run/evaluate.h"
 #include "evolve/run/pictures.h"
 #include "evolve/run/run_reader.h"
 #include "evolve/view/motion.h"
@@ -71,10 +70,9 @@ Subject subject_of_genome(const RenderOptions& options) {
 }
 
 std::vector<core::Outcome> outcomes_of(const Subject& subject) {
-  EvaluationSeconds seconds;
-  return Evaluator(subject.experiment, 1)
-      .evaluate_fully(subject.genome, subject.generation, seconds)
-      .evaluation.trials;
+  return Evaluator(rules_of(subject.experiment), 1)
+      .evaluate_fully(compile(subject.genome), subject.generation)
+      .trials;
 }
 
 std::vector<core::Embryo> embryos_of(const Subject& subject, const std::vector<int>& steps) {
@@ -103,10 +101,7 @@ Sheet development_of(const Subject& subject, const RenderOptions& options) {
   for (const core::Embryo& embryo : embryos) {
     bodies.push_back(core::extract_body(embryo, subject.experiment.min_cells).body);
   }
-  const std::vector<int> stages = subject.experiment.stages();
-  return development_sheet(
-      embryos, bodies,
-      stages.size() > 1 ? stages.front() : subject.experiment.development.steps + 1);
+  return development_sheet(embryos, bodies, subject.experiment.metamorphoses());
 }
 
 const Trial& trial_of(const Subject& subject, const std::string& name) {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "evolve/run/evaluate.h"
 #include "metamorph/body.h"
+#include "metamorph/evaluator.h"
 #include "metamorph/outcome.h"
 
 namespace metamorph::evolve {

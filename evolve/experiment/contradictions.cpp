@@ -13,10 +13,10 @@ void at_most(std::vector<Contradiction>& found, const std::string& low_key, Numb
   if (low > high) found.push_back({low_key, fmt::format("at most {} = {}", high_key, high)});
 }
 
-void check_trials(const Experiment& e, std::vector<Contradiction>& found) {
-  if (e.trials.empty() || e.trials.size() > 2) {
-    found.push_back(
-        {"trials", fmt::format("one or two [[trials]] tables, there are {}", e.trials.size())});
+void check_trials_and_search(const Experiment& e, std::vector<Contradiction>& found) {
+  if (e.trials.empty()) {
+    found.push_back({"trials", "a [[trials]] table at least, there is none"});
+    return;
   }
   std::set<std::string> names;
   for (const Trial& trial : e.trials) {
@@ -29,16 +29,10 @@ void check_trials(const Experiment& e, std::vector<Contradiction>& found) {
       found.push_back({path + ".start_displacement", "more than 0: all starts would be one"});
     }
   }
-  if (e.search.kind != SearchKind::progressive) return;
-  if (e.trials.size() != 2) {
-    found.push_back({"search.kind", fmt::format("simple or novelty: progressive search needs two "
-                                                "trials (larva, adult), there are {}",
-                                                e.trials.size())});
-  } else if (e.trials[0].stage >= e.trials[1].stage) {
-    found.push_back({"trials." + e.trials[0].name + ".stage",
-                     fmt::format("below the second trial's stage = {}: progressive search starts "
-                                 "with the earlier stage",
-                                 e.trials[1].stage)});
+  const SearchKind& search = search_kind(e.search.kind);
+  if (search.contradictions == nullptr) return;
+  for (Contradiction& c : search.contradictions(search_setup_of(e, 1))) {
+    found.push_back(std::move(c));
   }
 }
 
@@ -48,8 +42,6 @@ std::vector<Contradiction> contradictions(const Experiment& e) {
   std::vector<Contradiction> found;
   at_most(found, "development.period_min", e.development.period_min, "development.period_max",
           e.development.period_max);
-  at_most(found, "search.archive_floor", e.search.archive_floor, "search.archive_threshold",
-          e.search.archive_threshold);
   at_most(found, "body.min_cells", e.min_cells, "development.max_cells", e.development.max_cells);
   at_most(found, "neat.species_min", e.neat.species_min, "neat.species_max", e.neat.species_max);
   at_most(found, "neat.compatibility_floor", e.neat.compatibility_floor,
@@ -76,7 +68,7 @@ std::vector<Contradiction> contradictions(const Experiment& e) {
     for (const Trial& trial : e.trials) used |= trial.scene == scene.name;
     if (!used) found.push_back({path, "a scene that a trial names"});
   }
-  check_trials(e, found);
+  check_trials_and_search(e, found);
   return found;
 }
 

@@ -21,4 +21,28 @@ std::vector<int> Experiment::stages() const {
   return stages;
 }
 
+std::vector<int> Experiment::metamorphoses() const {
+  std::vector<int> starts = stages();
+  if (!starts.empty()) starts.pop_back();
+  return starts;
+}
+
+EvaluationRules rules_of(const Experiment& e) {
+  EvaluationRules rules{e.development,
+                        e.min_cells,
+                        e.created_limit,
+                        e.created_penalty,
+                        e.locomotion.precision,
+                        e.locomotion.method,
+                        {},
+                        e.trials,
+                        e.seed};
+  for (const NamedScene& named : e.scenes) rules.scenes.push_back(named.scene);
+  return rules;
+}
+
+SearchSetup search_setup_of(const Experiment& e, int threads) {
+  return {e.search, e.neat, problem_of(rules_of(e), e.generations), threads};
+}
+
 }  // namespace metamorph::evolve

@@ -5,29 +5,14 @@
 #include <vector>
 
 #include "evolve/genetics/population.h"
-#include "evolve/search/search.h"
+#include "evolve/search/registry.h"
+#include "evolve/search/settings.h"
 #include "metamorph/development.h"
+#include "metamorph/evaluator.h"
 #include "metamorph/locomotion.h"
 #include "metamorph/scene.h"
 
 namespace metamorph::evolve {
-
-/// How the outcomes of a trial's starts become one (evolve/run/starts.h).
-enum class StartsCombine { mean, median, least };
-
-/// One evaluation of an individual: the body it has at a stage of development, in one scene, from
-/// one start or from several a hair apart. On land a gait may have several outcomes, and which one
-/// comes is decided by how the body happened to come to rest: of many bodies run once, a search
-/// keeps those that were lucky.
-struct Trial {
-  std::string name;                  ///< larva, adult, swim, walk, ...
-  int stage = 600;                   ///< development step at which the body is taken
-  std::string scene;                 ///< name of one of the experiment's scenes
-  int starts = 1;                    ///< times the body is run
-  double start_displacement = 1e-3;  ///< d, of every node, in x and in y, at most
-  StartsCombine starts_combine = StartsCombine::mean;
-  bool starts_renew = false;  ///< every generation has other starts: what lives on tries again
-};
 
 /// A scene of an experiment: one of the four environments with some coefficients replaced. The
 /// scene's own name is the name trials call it by.
@@ -59,6 +44,13 @@ struct Experiment {
 
   const core::Scene& scene_of(const Trial& trial) const;  ///< precondition: it exists
   std::vector<int> stages() const;  ///< the distinct stages of the trials, ascending
+  /// The steps at which the later stages of life begin: all stages but the last, ascending.
+  std::vector<int> metamorphoses() const;
 };
+
+/// The part that an evaluator has to know.
+EvaluationRules rules_of(const Experiment& experiment);
+/// The part that a search has to know. `threads` 0: all.
+SearchSetup search_setup_of(const Experiment& experiment, int threads);
 
 }  // namespace metamorph::evolve

@@ -72,19 +72,32 @@ Section locomotion_section(Experiment& e) {
             "time integrator"}}};
 }
 
+Choice search_choice(SearchSettings& s) {
+  std::vector<std::string_view> names;
+  for (const SearchKind& kind : search_kinds()) names.push_back(kind.name);
+  return {names,
+          [&s, names] {
+            return static_cast<std::size_t>(std::find(names.begin(), names.end(), s.kind) -
+                                            names.begin());
+          },
+          [&s, names](std::size_t i) { s.kind = std::string(names[i]); }};
+}
+
+/// The kind, and what each kind lets be set, once.
 Section search_section(Experiment& e) {
   SearchSettings& s = e.search;
-  return {
-      "search",
-      "what is selected for",
-      {{"kind", choice(s.kind, {"simple", "progressive", "novelty"}), 0, 0, "the search"},
-       {"neighbours", &s.neighbours, 1, 1e6, "k of novelty search"},
-       {"archive_threshold", &s.archive_threshold, 0, no_limit, "novelty to enter, at first, d"},
-       {"archive_floor", &s.archive_floor, 0, no_limit, "lowest threshold, d"},
-       {"archive_many", &s.archive_many, 0, no_limit, "more in a row raise the threshold"},
-       {"archive_idle", &s.archive_idle, 1, no_limit, "generations without one that lower it"},
-       {"archive_raise", &s.archive_raise, 1, 1e3, "factor that raises it"},
-       {"archive_lower", &s.archive_lower, 0, 1, "factor that lowers it"}}};
+  Section section{
+      "search", "what is selected for", {{"kind", search_choice(s), 0, 0, "the search"}}};
+  for (const SearchKind& kind : search_kinds()) {
+    for (const Setting& setting : kind.settings) {
+      const auto known = [&](const Key& key) { return key.name == setting.name; };
+      if (std::any_of(section.keys.begin(), section.keys.end(), known)) continue;
+      Key key{setting.name, static_cast<int*>(nullptr), setting.low, setting.high, setting.help};
+      std::visit([&](auto& value) { key.field = &value; }, s.values.find(setting.name)->second);
+      section.keys.push_back(std::move(key));
+    }
+  }
+  return section;
 }
 
 Section neat_section(Experiment& e) {

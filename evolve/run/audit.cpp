@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "evolve/evaluation/starts.h"
 #include "evolve/files/input_error.h"
-#include "evolve/run/evaluate.h"
 #include "evolve/run/median.h"
-#include "evolve/run/starts.h"
 #include "metamorph/automatic_step.h"
 #include "metamorph/development.h"
 #include "metamorph/extraction.h"
@@ -97,16 +96,16 @@ bool is_failure_name(const std::string& status) {
 }
 
 /// eq 6 from the replays, and from the references where there are any.
-void close_champion(ChampionAudit& audited, const Evaluation& replay) {
-  Evaluation reference = replay;
+void close_champion(ChampionAudit& audited, const Evaluated& replay) {
+  Evaluated reference = replay;
   audited.same_bits = true;
   for (std::size_t t = 0; t < audited.trials.size(); ++t) {
     const TrialAudit& trial = audited.trials[t];
     if (trial.compared) reference.trials[t] = trial.reference;
     if (trial.recorded && !trial.same_bits) audited.same_bits = false;
   }
-  audited.replay_eq6 = scalar_fitness(replay);
-  audited.reference_eq6 = scalar_fitness(reference);
+  audited.replay_eq6 = geometric_mean(evaluation_of(replay));
+  audited.reference_eq6 = geometric_mean(evaluation_of(reference));
   const bool complete = std::all_of(audited.trials.begin(), audited.trials.end(),
                                     [](const TrialAudit& trial) { return trial.recorded; });
   if (complete && audited.replay_eq6 != audited.champion.eq6) audited.same_bits = false;
@@ -239,15 +238,14 @@ RunAudit audit(const RunReader& run, const AuditOptions& options,
   }
 
   const int threads = core::thread_count(options.threads);
+  const EvaluationRules rules = rules_of(experiment);
   std::vector<Evaluated> replays(result.champions.size());
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(replays.size()); ++i) {
     const auto c = static_cast<std::size_t>(i);
     const Champion& champion = result.champions[c].champion;
-    EvaluationSeconds seconds;
     // By itself, because the starts may be those of its generation.
-    replays[c] =
-        Evaluator(experiment, 1).evaluate_fully(champion.genome, champion.generation, seconds);
+    replays[c] = Evaluator(rules, 1).evaluate_fully(compile(champion.genome), champion.generation);
   }
   for (std::size_t c = 0; c < replays.size(); ++c) {
     const Champion& champion = result.champions[c].champion;
@@ -256,7 +254,7 @@ RunAudit audit(const RunReader& run, const AuditOptions& options,
       audited.recorded = !champion.statuses[t].empty();
       audited.recorded_status = champion.statuses[t];
       audited.recorded_distance = champion.distances[t];
-      audited.replay = replays[c].evaluation.trials[t];
+      audited.replay = replays[c].trials[t];
       audited.same_bits = audited.recorded_status == core::name(audited.replay.status) &&
                           audited.recorded_distance == audited.replay.distance;
     }
@@ -277,7 +275,7 @@ RunAudit audit(const RunReader& run, const AuditOptions& options,
     if (progress) progress(++done, static_cast<int>(count));
   }
   for (std::size_t c = 0; c < replays.size(); ++c) {
-    close_champion(result.champions[c], replays[c].evaluation);
+    close_champion(result.champions[c], replays[c]);
   }
   summarize(result, trials);
   return result;

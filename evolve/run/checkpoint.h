@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "evolve/genetics/population.h"
-#include "evolve/search/search.h"
+#include "evolve/genetics/genome.h"
 
 namespace metamorph::evolve {
 
@@ -22,19 +21,19 @@ struct BestEver {
   bool operator==(const BestEver&) const = default;
 };
 
-/// Everything that decides how a run goes on, between two generations: `population` is about to be
-/// evaluated. The novelty archive is left out of the encoding: the record holds its entries, each
-/// once, and it would make every checkpoint megabytes long.
+/// Everything that decides how a run goes on, between two generations, but for what the tables of
+/// its search hold: a novelty archive would make every checkpoint megabytes long.
 struct Checkpoint {
-  PopulationState population;
-  SearchState search;
+  int generation = 0;                ///< about to be evaluated
+  std::vector<std::uint8_t> search;  ///< Search::save()
   BestEver best;
+  bool operator==(const Checkpoint&) const = default;
 };
 
-/// Exact binary form: magic, version, length and checksum, then every field, little-endian.
+/// Exact binary form: a mark, a checksum, and the fields as CBOR.
 std::vector<std::uint8_t> encode(const Checkpoint& checkpoint);
-/// The inverse, with an empty archive. Throws InputError("<source>: checkpoint ...") if the bytes
-/// are of another version, truncated, or damaged.
+/// The inverse. Throws InputError("<source>: checkpoint ...") if the bytes are of another version,
+/// truncated, or damaged.
 Checkpoint decode(std::span<const std::uint8_t> bytes, const std::string& source);
 
 }  // namespace metamorph::evolve

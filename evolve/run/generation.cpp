@@ -10,11 +10,8 @@ double PhaseSeconds::total() const {
 }
 
 PhaseSeconds& PhaseSeconds::operator+=(const PhaseSeconds& other) {
-  evaluation.develop += other.evaluation.develop;
-  evaluation.extract += other.evaluation.extract;
-  evaluation.locomotion += other.evaluation.locomotion;
+  evaluation += other.evaluation;
   search += other.search;
-  breeding += other.breeding;
   record += other.record;
   return *this;
 }
@@ -22,10 +19,10 @@ PhaseSeconds& PhaseSeconds::operator+=(const PhaseSeconds& other) {
 std::array<int, core::status_count> count_statuses(const GenerationResult& result, int trial) {
   std::array<int, core::status_count> counts{};
   for (const Evaluated& individual : result.individuals) {
-    const Evaluation& e = individual.evaluation;
-    for (std::size_t t = 0; t < e.trials.size(); ++t) {
-      if (e.evaluated[t] == 0 || (trial >= 0 && t != static_cast<std::size_t>(trial))) continue;
-      ++counts[static_cast<std::size_t>(e.trials[t].status)];
+    for (std::size_t t = 0; t < individual.trials.size(); ++t) {
+      if (individual.evaluated[t] == 0 || (trial >= 0 && t != static_cast<std::size_t>(trial)))
+        continue;
+      ++counts[static_cast<std::size_t>(individual.trials[t].status)];
     }
   }
   return counts;
@@ -44,7 +41,7 @@ std::int64_t count_evaluations(const Experiment& experiment, const GenerationRes
 int count_near_step_limit(const GenerationResult& result) {
   int count = 0;
   for (const Evaluated& individual : result.individuals) {
-    for (const core::Outcome& outcome : individual.evaluation.trials) {
+    for (const core::Outcome& outcome : individual.trials) {
       count += outcome.near_step_limit ? 1 : 0;
     }
   }

@@ -5,33 +5,33 @@
 #include <string_view>
 #include <vector>
 
-#include "evolve/run/evaluate.h"
+#include "evolve/experiment/experiment.h"
 
 namespace metamorph::evolve {
 
 /// Wall-clock seconds by phase.
 struct PhaseSeconds {
   EvaluationSeconds evaluation;
-  double search = 0, breeding = 0, record = 0;
+  double search = 0, record = 0;
 
-  static constexpr std::array<std::string_view, 6> names = {"develop", "extract",  "locomotion",
-                                                            "search",  "breeding", "record"};
-  std::array<double, 6> values() const {
-    return {
-        evaluation.develop, evaluation.extract, evaluation.locomotion, search, breeding, record};
+  static constexpr std::array<std::string_view, 5> names = {"develop", "extract", "locomotion",
+                                                            "search", "record"};
+  std::array<double, 5> values() const {
+    return {evaluation.develop, evaluation.extract, evaluation.locomotion, search, record};
   }
   double total() const;
   PhaseSeconds& operator+=(const PhaseSeconds& other);
 };
 
-/// What came of one generation: everything the record and the reporters need beside the population.
+/// What came of one generation: everything the record and the reporters need.
 struct GenerationResult {
   int generation = 0;
-  std::vector<Evaluated> individuals;  ///< [population]
-  std::vector<double> scores;          ///< [population] by the search's rule
-  std::vector<double> eq6;             ///< [population] geometric mean of the distances
-  std::size_t champion = 0;            ///< position of the best by eq 6
-  std::size_t archive_before = 0;      ///< entries of the archive before this generation
+  Asked asked;                                ///< the individuals that were evaluated
+  std::vector<Evaluated> individuals;         ///< [population]
+  std::vector<double> scores;                 ///< [population] by the search's rule
+  std::vector<double> eq6;                    ///< [population] geometric mean of the distances
+  std::size_t champion = 0;                   ///< position of the best by eq 6
+  std::vector<std::vector<Row>> search_rows;  ///< [tables of the search]
   EvaluationWork work;
 };
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "evolve/run/displaced.h"
+#include "evolve/evaluation/displaced.h"
 #include "evolve/run/median.h"
 #include "metamorph/automatic_step.h"
 #include "metamorph/random.h"

@@ -28,9 +28,7 @@ Sheet individual_sheet(const Experiment& experiment, const Genome& genome,
     stage.ground = experiment.scene_of(trial).ground;
     stages.push_back(std::move(stage));
   }
-  // One stage knows no metamorphosis: no cell is drawn as born after it.
-  const int larva_steps = steps.size() > 1 ? steps.front() : experiment.development.steps + 1;
-  Sheet sheet = champion_sheet(stages, larva_steps);
+  Sheet sheet = champion_sheet(stages, experiment.metamorphoses());
   sheet.heading = heading;
   return sheet;
 }
@@ -42,9 +40,8 @@ void PictureReporter::generation_done(const GenerationReport& report) {
       fmt::format("{}, seed {}: best until generation {}, {:.3f} d (eq 6)", report.experiment.name,
                   report.experiment.seed, report.best.generation, report.best.eq6);
   try {
-    const Sheet sheet =
-        individual_sheet(report.experiment, report.best.genome,
-                         report.result.individuals[champion].evaluation.trials, heading);
+    const Sheet sheet = individual_sheet(report.experiment, report.best.genome,
+                                         report.result.individuals[champion].trials, heading);
     for (const char* name : {"best.svg", "best.png"}) {
       write_sheet(sheet, (directory_ / name).string());
     }

@@ -6,14 +6,15 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "evolve/evaluation/stopwatch.h"
 #include "evolve/experiment/experiment_file.h"
 #include "evolve/files/genome_file.h"
 #include "evolve/files/input_error.h"
+#include "evolve/run/outcome_table.h"
 #include "evolve/run/record_schema.h"
+#include "evolve/run/search_tables.h"
 #include "evolve/run/session.h"
-#include "evolve/run/stopwatch.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -41,6 +42,13 @@ double mean(const std::vector<double>& values) {
 
 }  // namespace
 
+std::string record_schema() {
+  constexpr std::string_view place = "OUTCOME_COLUMNS";
+  std::string sql = record_tables;
+  sql.replace(sql.find(place), place.size(), outcome_columns());
+  return sql + work_table;
+}
+
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory) {
   const std::filesystem::path file = directory / "run.lock";
   descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
@@ -65,8 +73,7 @@ Record::Record(const std::filesystem::path& directory, const Experiment& experim
   // Readers may look on while the run writes.
   database_->run("PRAGMA journal_mode = WAL");
   Transaction transaction(*database_);
-  database_->run(record_schema);
-  database_->run(work_schema);
+  database_->run(record_schema());
   Statement insert(*database_, "INSERT INTO run VALUES (?, ?)");
   insert.bind("format").bind(record_format).run();
   insert.bind("experiment").bind(experiment.name).run();
@@ -115,7 +122,6 @@ std::unique_ptr<Record> Record::resume(const std::filesystem::path& directory, i
   }
   database.run("PRAGMA journal_mode = WAL");
   Transaction transaction(database);
-  database.run(work_schema);
   record->start_session(threads);
   transaction.commit();
   return record;
@@ -157,46 +163,49 @@ void Record::change_generations(int generations) {
   update.bind(to_toml(changed)).run();
 }
 
-Checkpoint Record::checkpoint() {
-  const std::string source = database_->file().string();
-  const Experiment recorded = experiment();
-  Statement last(*database_, "SELECT count(*) FROM generations");
-  last.step();
-  const std::int64_t done = last.integer(0);
+int Record::generations_done() {
+  Statement count(*database_, "SELECT count(*) FROM generations");
+  count.step();
+  return static_cast<int>(count.integer(0));
+}
 
+BestEver Record::restore(Search& search) {
+  const std::string source = database_->file().string();
+  for (const Table& table : search.tables()) database_->run(creation_of(table));
+  const int done = generations_done();
   Statement select(*database_, "SELECT state FROM checkpoint");
   if (!select.step()) {
     if (done > 0) throw InputError(source + ": checkpoint is missing");
-    return {first_generation(recorded.neat, recorded.seed), initial_state(recorded.search), {}};
+    return {};
   }
-  Checkpoint checkpoint = decode(select.blob(0), source);
-  const PopulationState& population = checkpoint.population;
-  if (population.generation != done || population.seed != recorded.seed ||
-      population.genomes.size() != static_cast<std::size_t>(recorded.neat.population)) {
+  const Checkpoint checkpoint = decode(select.blob(0), source);
+  if (checkpoint.generation != done) {
+    throw InputError(fmt::format("{}: checkpoint of generation {}: expected {}", source,
+                                 checkpoint.generation, done));
+  }
+  try {
+    search.load(checkpoint.search,
+                [&](const Table& table) { return read_rows(*database_, table); });
+  } catch (const std::runtime_error& error) {
+    throw InputError(fmt::format("{}: checkpoint: state of the search: {}", source, error.what()));
+  }
+  if (search.generation() != done) {
     throw InputError(
-        fmt::format("{}: checkpoint of generation {}, seed {}, population {}: expected {}, {}, {}",
-                    source, population.generation, population.seed, population.genomes.size(), done,
-                    recorded.seed, recorded.neat.population));
+        fmt::format("{}: checkpoint: state of the search in generation {}: expected "
+                    "{}",
+                    source, search.generation(), done));
   }
-  Statement archive(
-      *database_, "SELECT individual, generation, novelty, behaviour FROM archive ORDER BY number");
-  while (archive.step()) {
-    checkpoint.search.archive.push_back(
-        {archive.integer(0), static_cast<int>(archive.integer(1)), archive.real(2),
-         nlohmann::json::parse(archive.text(3)).get<std::vector<double>>()});
-  }
-  return checkpoint;
+  return checkpoint.best;
 }
 
-void Record::write(const PopulationState& population, const GenerationResult& result,
-                   const PhaseSeconds& seconds, const Checkpoint& next) {
+void Record::write(const GenerationResult& result, const PhaseSeconds& seconds,
+                   const Search& search, const BestEver& best) {
   Stopwatch watch;
   Transaction transaction(*database_);
   write_last_duration();
-  write_individuals(population, result);
-  write_summary(population, result, next);
-  write_species(population, result);
-  write_archive(result, next.search);
+  write_individuals(result);
+  write_summary(result);
+  write_search(result, search);
   Statement timing(*database_, "INSERT INTO timings VALUES (?, ?, ?)");
   const auto values = seconds.values();
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {  // the last phase is this one
@@ -206,7 +215,8 @@ void Record::write(const PopulationState& population, const GenerationResult& re
   work.bind(result.generation).bind(result.work.individuals).bind(result.work.developed);
   work.bind(result.work.bodies).bind(result.work.simulated).run();
   Statement checkpoint(*database_, "INSERT OR REPLACE INTO checkpoint VALUES (1, ?, ?)");
-  checkpoint.bind(next.population.generation).bind_blob(encode(next)).run();
+  checkpoint.bind(search.generation());
+  checkpoint.bind_blob(encode({search.generation(), search.save(), best})).run();
   transaction.commit();
   last_generation_ = result.generation;
   last_duration_ = watch.lap();
@@ -219,69 +229,49 @@ void Record::write_last_duration() {
   last_generation_ = -1;
 }
 
-void Record::write_individuals(const PopulationState& population, const GenerationResult& result) {
+void Record::write_individuals(const GenerationResult& result) {
   Statement individual(*database_,
-                       "INSERT INTO individuals VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  Statement row(*database_,
-                "INSERT INTO outcomes VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
-                "?, ?, ?, ?, ?)");
+                       "INSERT INTO individuals VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement row(*database_, outcome_insertion());
   for (std::size_t i = 0; i < result.individuals.size(); ++i) {
-    const Individual& who = population.individuals[i];
-    const Genome& genome = population.genomes[i];
-    const Evaluated& evaluated = result.individuals[i];
-    const Evaluation& e = evaluated.evaluation;
+    const Lineage& who = result.asked.lineage[i];
+    const Genome& genome = result.asked.genomes[i];
+    const Evaluated& e = result.individuals[i];
     individual.bind(result.generation).bind(static_cast<int>(i)).bind(who.id).bind(who.parent_a);
-    individual.bind(who.parent_b).bind(who.species).bind(result.scores[i]).bind(result.eq6[i]);
+    individual.bind(who.parent_b).bind(result.scores[i]).bind(result.eq6[i]);
     individual.bind(e.penalty).bind(e.created).bind(e.died);
     individual.bind(static_cast<int>(genome.nodes.size()));
     individual.bind(static_cast<int>(genome.links.size())).run();
     for (std::size_t t = 0; t < e.trials.size(); ++t) {
       if (e.evaluated[t] == 0) continue;
-      const core::Outcome& o = e.trials[t];
-      const StageCounts& stage = evaluated.stages[t];
+      const StageCounts& stage = e.stages[t];
       row.bind(result.generation).bind(static_cast<int>(i)).bind(static_cast<int>(t));
-      row.bind(core::name(o.status)).bind(o.distance);
-      row.bind(o.mean_position[0]).bind(o.mean_position[1]);
       row.bind(stage.cells).bind(stage.created).bind(stage.died);
-      row.bind(o.cells).bind(o.springs).bind(o.triangles).bind(o.steps);
-      row.bind(o.settle_time).bind(o.min_area_ratio).bind(o.max_speed);
-      row.bind(o.longest_spring).bind(o.long_spring_share);
-      if (core::is_failure(o.status)) {
-        row.bind(o.failed_step).bind(o.failed_index).bind(o.failed_value);
-      } else {
-        row.bind_null().bind_null().bind_null();
-      }
+      bind_outcome(row, e.trials[t]);
       row.run();
     }
   }
 }
 
-void Record::write_summary(const PopulationState& population, const GenerationResult& result,
-                           const Checkpoint& next) {
+void Record::write_summary(const GenerationResult& result) {
   const std::size_t best = result.champion;
-  const Individual& champion = population.individuals[best];
-  Statement generation(*database_,
-                       "INSERT INTO generations VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  generation.bind(result.generation).bind(champion.id).bind(result.eq6[best]);
+  const std::int64_t champion = result.asked.lineage[best].id;
+  Statement generation(*database_, "INSERT INTO generations VALUES (?, ?, ?, ?, ?, ?)");
+  generation.bind(result.generation).bind(champion).bind(result.eq6[best]);
   generation.bind(mean(result.eq6))
       .bind(*std::max_element(result.scores.begin(), result.scores.end()));
-  generation.bind(mean(result.scores)).bind(static_cast<int>(population.species.size()));
-  generation.bind(population.compatibility_threshold);
-  const std::size_t archive_size = next.search.archive.size();
-  generation.bind(static_cast<std::int64_t>(archive_size - result.archive_before));
-  generation.bind(static_cast<std::int64_t>(archive_size)).bind(next.search.archive_threshold);
-  generation.run();
+  generation.bind(mean(result.scores)).run();
 
   Statement trial_row(*database_, "INSERT INTO generation_trials VALUES (?, ?, ?, ?, ?, ?)");
   Statement status_row(*database_, "INSERT INTO status_counts VALUES (?, ?, ?, ?)");
-  for (std::size_t t = 0; t < result.individuals[best].evaluation.trials.size(); ++t) {
+  for (std::size_t t = 0; t < result.individuals[best].trials.size(); ++t) {
     std::vector<double> distances;
     for (const Evaluated& one : result.individuals) {
-      if (one.evaluation.evaluated[t] != 0) distances.push_back(one.evaluation.trials[t].distance);
+      if (one.evaluated[t] != 0) distances.push_back(one.trials[t].distance);
     }
     const int trial = static_cast<int>(t);
     trial_row.bind(result.generation).bind(trial).bind(static_cast<int>(distances.size()));
-    trial_row.bind(result.individuals[best].evaluation.trials[t].distance);
+    trial_row.bind(result.individuals[best].trials[t].distance);
     trial_row.bind(distances.empty() ? 0.0 : *std::max_element(distances.begin(), distances.end()));
     trial_row.bind(distances.empty() ? 0.0 : mean(distances)).run();
     const auto counts = count_statuses(result, trial);
@@ -292,31 +282,15 @@ void Record::write_summary(const PopulationState& population, const GenerationRe
     }
   }
   Statement champion_row(*database_, "INSERT INTO champions VALUES (?, ?, ?, ?, ?, ?)");
-  champion_row.bind(result.generation).bind(static_cast<int>(best)).bind(champion.id);
+  champion_row.bind(result.generation).bind(static_cast<int>(best)).bind(champion);
   champion_row.bind(result.eq6[best]).bind(result.scores[best]);
-  champion_row.bind(genome_text(population.genomes[best])).run();
+  champion_row.bind(genome_text(result.asked.genomes[best])).run();
 }
 
-void Record::write_species(const PopulationState& population, const GenerationResult& result) {
-  Statement row(*database_, "INSERT INTO species VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
-  for (const Species& species : population.species) {
-    std::vector<double> scores;
-    for (std::size_t i = 0; i < result.scores.size(); ++i) {
-      if (population.individuals[i].species == species.id) scores.push_back(result.scores[i]);
-    }
-    row.bind(result.generation).bind(species.id).bind(species.age).bind(species.size);
-    row.bind(species.best_ever).bind(species.stagnant);
-    row.bind(scores.empty() ? 0.0 : *std::max_element(scores.begin(), scores.end()));
-    row.bind(scores.empty() ? 0.0 : mean(scores)).run();
-  }
-}
-
-void Record::write_archive(const GenerationResult& result, const SearchState& search) {
-  Statement row(*database_, "INSERT INTO archive VALUES (?, ?, ?, ?, ?)");
-  for (std::size_t n = result.archive_before; n < search.archive.size(); ++n) {
-    const ArchiveEntry& entry = search.archive[n];
-    row.bind(static_cast<std::int64_t>(n)).bind(entry.individual).bind(entry.generation);
-    row.bind(entry.novelty).bind(nlohmann::json(entry.behaviour).dump()).run();
+void Record::write_search(const GenerationResult& result, const Search& search) {
+  const std::vector<Table> tables = search.tables();
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    write_rows(*database_, tables[t], result.search_rows[t]);
   }
 }
 

@@ -40,26 +40,25 @@ class Record {
   Experiment experiment();
   /// Records that the run is to have another number of generations.
   void change_generations(int generations);
-  /// Where the run goes on: the checkpoint with its archive, or the first generation if none has
-  /// been recorded yet.
-  Checkpoint checkpoint();
+  int generations_done();
+  /// Makes the search go on where the run was left, and makes its tables if the run has none yet.
+  /// Returns the best individual up to there.
+  BestEver restore(Search& search);
 
-  /// Writes one generation and the checkpoint after it, as one transaction. `population` is the
-  /// one the results belong to.
-  void write(const PopulationState& population, const GenerationResult& result,
-             const PhaseSeconds& seconds, const Checkpoint& next);
+  /// Writes one generation and the checkpoint after it, as one transaction. `search` has been told
+  /// of the generation and goes on with the next; restore() has seen it.
+  void write(const GenerationResult& result, const PhaseSeconds& seconds, const Search& search,
+             const BestEver& best);
 
   const std::filesystem::path& directory() const { return directory_; }
 
  private:
   explicit Record(const std::filesystem::path& directory);  // of an existing run
   void start_session(int threads);
-  void write_individuals(const PopulationState& population, const GenerationResult& result);
-  void write_summary(const PopulationState& population, const GenerationResult& result,
-                     const Checkpoint& next);
-  void write_species(const PopulationState& population, const GenerationResult& result);
+  void write_individuals(const GenerationResult& result);
+  void write_summary(const GenerationResult& result);
+  void write_search(const GenerationResult& result, const Search& search);
   void write_last_duration();
-  void write_archive(const GenerationResult& result, const SearchState& search);
 
   std::filesystem::path directory_;
   std::unique_ptr<DirectoryLock> lock_;

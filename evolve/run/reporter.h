@@ -18,7 +18,6 @@ struct RunStart {
 /// One generation, already safe in the record.
 struct GenerationReport {
   const Experiment& experiment;
-  const PopulationState& population;  ///< the one that was evaluated
   const GenerationResult& result;
   const BestEver& best;          ///< by eq 6, up to now
   bool improved = false;         ///< `best` is of this generation

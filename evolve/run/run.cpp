@@ -2,65 +2,75 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
+#include <algorithm>
 
+#include "evolve/evaluation/stopwatch.h"
 #include "evolve/files/input_error.h"
-#include "evolve/run/stopwatch.h"
+#include "metamorph/threads.h"
 
 namespace metamorph::evolve {
 namespace {
 
-/// Grows the best individual by score through all trials, for the record: progressive search runs
-/// only larvae at first, but the figures show what adults their best would become.
-void complete_best(const Experiment& experiment, const PopulationState& population,
-                   const Evaluator& evaluator, GenerationResult& result,
-                   EvaluationSeconds& seconds) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < result.scores.size(); ++i) {
-    if (result.scores[i] > result.scores[best]) best = i;
+std::vector<core::Network> compile_all(const std::vector<Genome>& genomes, int threads) {
+  std::vector<core::Network> networks(genomes.size());
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(genomes.size()); ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    networks[n] = compile(genomes[n]);
   }
-  Evaluated& evaluated = result.individuals[best];
-  const auto& ran = evaluated.evaluation.evaluated;
-  if (std::accumulate(ran.begin(), ran.end(), std::size_t{0}) == experiment.trials.size()) return;
-  evaluated = evaluator.evaluate_fully(population.genomes[best], result.generation, seconds);
+  return networks;
 }
 
-GenerationResult run_generation(const Experiment& experiment, const PopulationState& population,
-                                SearchState& search, Evaluator& evaluator, int threads,
+/// Grows the best individual by score through all trials, for the record: progressive search runs
+/// only larvae at first, but the figures show what adults their best would become.
+void complete_best(const std::vector<core::Network>& networks, Evaluator& evaluator,
+                   GenerationResult& result) {
+  const auto best = static_cast<std::size_t>(
+      std::max_element(result.scores.begin(), result.scores.end()) - result.scores.begin());
+  Evaluated& evaluated = result.individuals[best];
+  const bool complete = std::all_of(evaluated.evaluated.begin(), evaluated.evaluated.end(),
+                                    [](std::uint8_t ran) { return ran != 0; });
+  if (!complete) evaluated = evaluator.evaluate_fully(networks[best], result.generation);
+}
+
+GenerationResult run_generation(Search& search, Evaluator& evaluator, int threads,
                                 PhaseSeconds& seconds) {
-  GenerationResult result;
-  result.generation = population.generation;
-  result.archive_before = search.archive.size();
-  result.individuals =
-      evaluator.evaluate(population.genomes, trials_to_run(experiment, population.generation),
-                         population.generation, seconds.evaluation);
-  result.work = evaluator.work();
   Stopwatch watch;
-  std::vector<Evaluation> evaluations;
-  std::vector<std::int64_t> ids;
-  for (std::size_t i = 0; i < result.individuals.size(); ++i) {
-    evaluations.push_back(result.individuals[i].evaluation);
-    ids.push_back(population.individuals[i].id);
-  }
-  result.scores = score_generation(experiment.search, search, evaluations, ids,
-                                   population.generation, experiment.generations, threads);
+  GenerationResult result;
+  result.asked = search.ask();
+  result.generation = result.asked.generation;
   seconds.search += watch.lap();
-  complete_best(experiment, population, evaluator, result, seconds.evaluation);
+  const std::vector<core::Network> networks = compile_all(result.asked.genomes, threads);
+  seconds.evaluation.develop += watch.lap();
+  result.individuals = evaluator.evaluate(networks, result.asked.measured, result.generation);
+  result.work = evaluator.work();
+  watch.lap();
+  std::vector<Evaluation> evaluations;
+  for (const Evaluated& one : result.individuals) evaluations.push_back(evaluation_of(one));
+  Told told = search.tell(evaluations);
+  result.scores = std::move(told.scores);
+  result.search_rows = std::move(told.rows);
+  seconds.search += watch.lap();
+  complete_best(networks, evaluator, result);
   for (const Evaluated& one : result.individuals) {
-    result.eq6.push_back(scalar_fitness(one.evaluation));
+    result.eq6.push_back(geometric_mean(evaluation_of(one)));
   }
   result.champion = best_position(result.eq6, result.scores);
   return result;
 }
 
 /// True if the champion of this generation is better than all before.
-bool keep_best(const PopulationState& population, const GenerationResult& result, BestEver& best) {
+bool keep_best(const GenerationResult& result, BestEver& best) {
   const std::size_t champion = result.champion;
   const double eq6 = result.eq6[champion], score = result.scores[champion];
   if (std::pair(eq6, score) <= std::pair(best.eq6, best.score)) return false;
-  best = {result.generation,           population.individuals[champion].id, eq6, score, {},
-          population.genomes[champion]};
-  for (const core::Outcome& outcome : result.individuals[champion].evaluation.trials) {
+  best = {result.generation,
+          result.asked.lineage[champion].id,
+          eq6,
+          score,
+          {},
+          result.asked.genomes[champion]};
+  for (const core::Outcome& outcome : result.individuals[champion].trials) {
     best.distances.push_back(outcome.distance);
   }
   return true;
@@ -68,43 +78,29 @@ bool keep_best(const PopulationState& population, const GenerationResult& result
 
 }  // namespace
 
-std::vector<std::uint8_t> trials_to_run(const Experiment& experiment, int generation) {
-  std::vector<std::uint8_t> trials;
-  for (std::size_t t = 0; t < experiment.trials.size(); ++t) {
-    trials.push_back(evaluates_trial(experiment.search.kind, static_cast<int>(t), generation,
-                                     experiment.generations)
-                         ? 1
-                         : 0);
-  }
-  return trials;
-}
-
 RunSummary run(Record& record, const RunOptions& options) {
   const Experiment experiment = record.experiment();
-  Checkpoint state = record.checkpoint();
-  Evaluator evaluator(experiment, options.threads, options.checked_links);
+  const int threads = core::thread_count(options.threads);
+  const std::unique_ptr<Search> search = make_search(search_setup_of(experiment, threads));
+  BestEver best = record.restore(*search);
+  Evaluator evaluator(rules_of(experiment), threads, options.checked_links);
   RunSummary summary;
-  const RunStart start{experiment, record.directory(), state.population.generation};
+  const RunStart start{experiment, record.directory(), search->generation()};
   for (Reporter* reporter : options.reporters) reporter->started(start);
 
-  while (state.population.generation < experiment.generations) {
+  while (search->generation() < experiment.generations) {
     if (options.stop && options.stop()) {
       summary.interrupted = true;
       break;
     }
     Stopwatch whole;
     PhaseSeconds seconds;
-    const PopulationState population = state.population;  // as evaluated; the state breeds on
-    const GenerationResult result =
-        run_generation(experiment, population, state.search, evaluator, options.threads, seconds);
-    const bool improved = keep_best(population, result, state.best);
+    const EvaluationSeconds before = evaluator.seconds();
+    const GenerationResult result = run_generation(*search, evaluator, threads, seconds);
+    seconds.evaluation += evaluator.seconds() - before;
+    const bool improved = keep_best(result, best);
     Stopwatch watch;
-    next_generation(
-        state.population, experiment.neat, result.scores,
-        restarts_records(experiment.search.kind, result.generation, experiment.generations),
-        options.threads);
-    seconds.breeding = watch.lap();
-    record.write(population, result, seconds, state);
+    record.write(result, seconds, *search, best);
     seconds.record = watch.lap();
 
     const auto counts = count_statuses(result);
@@ -112,13 +108,12 @@ RunSummary run(Record& record, const RunOptions& options) {
     summary.near_step_limit += count_near_step_limit(result);
     summary.seconds += seconds;
     summary.work += result.work;
-    const GenerationReport report{experiment, population, result,
-                                  state.best, improved,   count_evaluations(experiment, result),
-                                  whole.lap()};
+    const GenerationReport report{
+        experiment, result, best, improved, count_evaluations(experiment, result), whole.lap()};
     for (Reporter* reporter : options.reporters) reporter->generation_done(report);
   }
-  summary.generations_done = state.population.generation;
-  summary.best = state.best;
+  summary.generations_done = search->generation();
+  summary.best = best;
   for (Reporter* reporter : options.reporters) reporter->finished(summary);
   return summary;
 }
@@ -130,11 +125,11 @@ void check_new_generations(const Experiment& experiment, int done, int generatio
         fmt::format("--generations {}: expected at least {}, which the run has done already",
                     generations, done));
   }
-  if (experiment.search.kind == SearchKind::progressive) {
-    throw InputError(fmt::format(
-        "--generations {}: expected {}: progressive search paces itself by the number of "
-        "generations, another number would have been another run from the start",
-        generations, experiment.generations));
+  if (make_search(search_setup_of(experiment, 1))->is_paced()) {
+    throw InputError(
+        fmt::format("--generations {}: expected {}: {} search paces itself by the number of "
+                    "generations, another number would have been another run from the start",
+                    generations, experiment.generations, experiment.search.kind));
   }
 }
 

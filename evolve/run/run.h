@@ -3,7 +3,6 @@
 #include <functional>
 #include <vector>
 
-#include "evolve/run/evaluate.h"
 #include "evolve/run/record.h"
 #include "evolve/run/reporter.h"
 
@@ -13,16 +12,13 @@ struct RunOptions {
   int threads = 0;                        ///< 0: all
   std::function<bool()> stop;             ///< asked after every generation; may be empty
   std::vector<Reporter*> reporters;       ///< borrowed
-  CheckedLinks* checked_links = nullptr;  ///< see Evaluator; changes nothing in the run
+  CheckedLinks* checked_links = nullptr;  ///< borrowed, see Evaluator; changes nothing in the run
 };
 
-/// Evolves from the record's checkpoint to the experiment's last generation: evaluate, score,
-/// breed, record, again and again. Neither prints nor draws. The same bits for any thread count,
-/// and however often it was interrupted and resumed.
+/// Evolves from the record's checkpoint to the experiment's last generation: ask, compile,
+/// evaluate, tell, record, again and again. Neither prints nor draws. The same bits for any thread
+/// count, and however often it was interrupted and resumed.
 RunSummary run(Record& record, const RunOptions& options);
-
-/// Which trials the search runs for the whole population in a generation: [trials] 0 or 1.
-std::vector<std::uint8_t> trials_to_run(const Experiment& experiment, int generation);
 
 /// Throws InputError if a run of this experiment that has done so many generations cannot go on to
 /// `generations` and be the same as one that was to have that number from the start.

@@ -39,8 +39,9 @@ RunReader::RunReader(const std::filesystem::path& run)
     if (select.step()) format = select.text(0);
   }
   if (format != record_format) {
-    throw InputError(fmt::format("{}: format = \"{}\": expected \"{}\", the record of a run",
-                                 file_.string(), format, record_format));
+    throw InputError(
+        fmt::format("{}: format = \"{}\": expected \"{}\", the record of a run of this version",
+                    file_.string(), format, record_format));
   }
 }
 
@@ -120,8 +121,6 @@ std::vector<std::pair<std::string, std::string>> RunReader::last_session() const
 }
 
 EvaluationWork RunReader::work() const {
-  const std::vector<std::string> known = tables();
-  if (std::find(known.begin(), known.end(), "work") == known.end()) return {};
   Statement sum(*database_,
                 "SELECT sum(individuals), sum(developed), sum(bodies), sum(simulated) FROM work");
   sum.step();

@@ -11,7 +11,7 @@
 
 #include "evolve/experiment/experiment.h"
 #include "evolve/genetics/genome.h"
-#include "evolve/run/evaluate.h"
+#include "metamorph/evaluator.h"
 
 namespace metamorph::evolve {
 
@@ -42,7 +42,7 @@ class RunReader {
   std::map<std::string, std::int64_t> status_counts() const;              ///< of the whole run
   std::vector<std::pair<std::string, double>> phase_seconds() const;      ///< of the whole run
   std::vector<std::pair<std::string, std::string>> last_session() const;  ///< key, value
-  /// Of all generations whose work was recorded; zeros for records of earlier versions.
+  /// Of all generations.
   EvaluationWork work() const;
 
   std::vector<std::string> tables() const;  ///< tables and views

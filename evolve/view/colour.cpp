@@ -2,8 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 
 namespace metamorph::evolve {
+
+Colour birth_colour(int stage) {
+  constexpr Colour first{0.33, 0.58, 0.84};
+  constexpr Colour later[] = {
+      {0.88, 0.38, 0.33}, {0.87, 0.66, 0.24}, {0.36, 0.67, 0.47}, {0.58, 0.45, 0.74}};
+  return stage <= 0 ? first : later[static_cast<std::size_t>(stage - 1) % std::size(later)];
+}
 
 Colour mix(const Colour& a, const Colour& b, double t) {
   return {std::lerp(a.red, b.red, t), std::lerp(a.green, b.green, t), std::lerp(a.blue, b.blue, t),

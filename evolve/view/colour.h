@@ -12,12 +12,14 @@ namespace colours {
 inline constexpr Colour ink{0.13, 0.15, 0.19};         ///< text, outlines
 inline constexpr Colour faint_ink{0.42, 0.45, 0.50};   ///< captions, scale bar
 inline constexpr Colour paper{1, 1, 1};                ///< background
-inline constexpr Colour larva{0.33, 0.58, 0.84};       ///< cells born before metamorphosis
-inline constexpr Colour adult{0.88, 0.38, 0.33};       ///< cells born in metamorphosis
 inline constexpr Colour contracted{0.16, 0.38, 0.76};  ///< the end of the strain scale below 1
 inline constexpr Colour expanded{0.83, 0.20, 0.18};    ///< the end of the strain scale above 1
 inline constexpr Colour ground{0.55, 0.52, 0.46};
 }  // namespace colours
+
+/// Of cells born in a stage of life, counted from 0: blue in the first, red in the metamorphosis to
+/// the second (figure 4), then ochre, green and violet, and again from red on.
+Colour birth_colour(int stage);
 
 /// (1 - t) a + t b in every channel; t in [0, 1].
 Colour mix(const Colour& a, const Colour& b, double t);

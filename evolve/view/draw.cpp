@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace metamorph::evolve {
@@ -28,19 +29,26 @@ std::string caption_of(const Stage& stage) {
   return caption;
 }
 
-}  // namespace
-
-Sheet champion_sheet(std::span<const Stage> stages, int larva_steps) {
+/// An empty sheet whose legend explains the colours of all stages.
+Sheet birth_sheet(std::span<const int> starts) {
   Sheet sheet;
   sheet.legend = Legend::birth;
+  sheet.stages = static_cast<int>(starts.size()) + 1;
+  return sheet;
+}
+
+}  // namespace
+
+Sheet champion_sheet(std::span<const Stage> stages, std::span<const int> starts) {
+  Sheet sheet = birth_sheet(starts);
   sheet.rows.resize(2);
   for (const Stage& stage : stages) {
-    Panel embryo = embryo_panel(stage.embryo, larva_steps);
+    Panel embryo = embryo_panel(stage.embryo, starts);
     embryo.title = fmt::format("{}, step {}", stage.title, stage.embryo.step);
     embryo.caption = fmt::format("{} cells", stage.embryo.cell_count());
     sheet.rows[0].push_back(std::move(embryo));
-    const Newborn newborn = newborn_nodes(stage.body, stage.embryo, larva_steps);
-    Panel body = body_panel(stage.body, newborn, direction_of(stage), stage.ground);
+    const BirthStages born = birth_stages(stage.body, stage.embryo, starts);
+    Panel body = body_panel(stage.body, born, direction_of(stage), stage.ground);
     body.caption = caption_of(stage);
     sheet.rows[1].push_back(std::move(body));
   }
@@ -48,19 +56,21 @@ Sheet champion_sheet(std::span<const Stage> stages, int larva_steps) {
 }
 
 Sheet development_sheet(std::span<const core::Embryo> embryos, std::span<const core::Body> bodies,
-                        int larva_steps) {
-  Sheet sheet;
-  sheet.legend = Legend::birth;
+                        std::span<const int> starts) {
+  Sheet sheet = birth_sheet(starts);
   sheet.rows.resize(2);
   for (std::size_t i = 0; i < embryos.size(); ++i) {
-    Panel embryo = embryo_panel(embryos[i], larva_steps);
+    Panel embryo = embryo_panel(embryos[i], starts);
     embryo.title = fmt::format("t = {}", embryos[i].step);
     sheet.rows[0].push_back(std::move(embryo));
-    sheet.rows[1].push_back(
-        body_panel(bodies[i], newborn_nodes(bodies[i], embryos[i], larva_steps)));
-    if (embryos[i].step <= larva_steps) sheet.line_after_column = static_cast<int>(i);
+    sheet.rows[1].push_back(body_panel(bodies[i], birth_stages(bodies[i], embryos[i], starts)));
   }
-  if (sheet.line_after_column + 1 == static_cast<int>(embryos.size())) sheet.line_after_column = -1;
+  for (const int start : starts) {
+    const auto after = std::find_if(embryos.begin(), embryos.end(),
+                                    [&](const core::Embryo& e) { return e.step > start; });
+    if (after == embryos.begin() || after == embryos.end()) continue;
+    sheet.lines_after.push_back(static_cast<int>(after - embryos.begin()) - 1);
+  }
   return sheet;
 }
 

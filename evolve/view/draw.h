@@ -24,13 +24,14 @@ struct Stage {
 };
 
 /// Embryos above, bodies below, stages side by side, to one scale, with distances and arrows in the
-/// direction of movement (figures 4, 5). Cells born at or after `larva_steps` are red.
-Sheet champion_sheet(std::span<const Stage> stages, int larva_steps);
+/// direction of movement (figures 4, 5). Cells have the colour of the stage they were born in;
+/// `starts`: the steps at which the stages after the first begin, ascending.
+Sheet champion_sheet(std::span<const Stage> stages, std::span<const int> starts);
 
 /// Development (figure 4): embryos at ascending steps above the bodies they would become, a dashed
-/// line where metamorphosis begins. `bodies` may hold bodies without nodes.
+/// line where a metamorphosis begins. `bodies` may hold bodies without nodes.
 Sheet development_sheet(std::span<const core::Embryo> embryos, std::span<const core::Body> bodies,
-                        int larva_steps);
+                        std::span<const int> starts);
 
 /// The nodes of a body in motion at one moment.
 struct Snapshot {

@@ -113,25 +113,34 @@ void Box::include(Point point, double margin) {
   top = std::max(top, point.y + margin);
 }
 
-Newborn newborn_nodes(const core::Body& body, const core::Embryo& embryo, int larva_steps) {
-  Newborn newborn;
-  newborn.reserve(body.cell.size());
-  for (const core::Index cell : body.cell) {
-    newborn.push_back(embryo.birth_step[static_cast<std::size_t>(cell)] >= larva_steps);
-  }
-  return newborn;
+int birth_stage(int birth_step, std::span<const int> starts) {
+  return static_cast<int>(std::upper_bound(starts.begin(), starts.end(), birth_step) -
+                          starts.begin());
 }
 
-Panel embryo_panel(const core::Embryo& embryo, int larva_steps) {
+BirthStages birth_stages(const core::Body& body, const core::Embryo& embryo,
+                         std::span<const int> starts) {
+  BirthStages stages;
+  stages.reserve(body.cell.size());
+  for (const core::Index cell : body.cell) {
+    stages.push_back(birth_stage(embryo.birth_step[static_cast<std::size_t>(cell)], starts));
+  }
+  return stages;
+}
+
+Panel embryo_panel(const core::Embryo& embryo, std::span<const int> starts) {
   Panel panel;
   const Points points = points_of(embryo.x, embryo.y);
   panel.box = box_of(points, cell_radius + 0.1);
-  panel.draw = [embryo, points, larva_steps](Canvas& canvas, double pixel) {
+  std::vector<Colour> of_birth;
+  for (const int step : embryo.birth_step) {
+    of_birth.push_back(birth_colour(birth_stage(step, starts)));
+  }
+  panel.draw = [embryo, points, of_birth](Canvas& canvas, double pixel) {
     const double line = std::max(0.05, 0.5 * pixel);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Colour& colour = embryo.birth_step[i] < larva_steps ? colours::larva : colours::adult;
-      canvas.fill_circle(points[i], cell_radius, mix(colour, colours::paper, 0.25));
-      canvas.stroke_circle(points[i], cell_radius - line / 2, mix(colour, colours::ink, 0.35),
+      canvas.fill_circle(points[i], cell_radius, mix(of_birth[i], colours::paper, 0.25));
+      canvas.stroke_circle(points[i], cell_radius - line / 2, mix(of_birth[i], colours::ink, 0.35),
                            line);
     }
     for (const auto& [i, j] : embryo.links) {
@@ -144,7 +153,7 @@ Panel embryo_panel(const core::Embryo& embryo, int larva_steps) {
   return panel;
 }
 
-Panel body_panel(const core::Body& body, const Newborn& newborn, std::optional<Point> direction,
+Panel body_panel(const core::Body& body, const BirthStages& born, std::optional<Point> direction,
                  bool ground) {
   Panel panel;
   const Points points = points_of(body.x, body.y);
@@ -160,8 +169,8 @@ Panel body_panel(const core::Body& body, const Newborn& newborn, std::optional<P
   panel.draw = [=](Canvas& canvas, double pixel) {
     if (ground) draw_ground(canvas, box, floor, pixel);
     draw_cells(canvas, body, points, [&](core::Index i) {
-      const bool red = !newborn.empty() && newborn[static_cast<std::size_t>(i)];
-      return mix(red ? colours::adult : colours::larva, colours::paper, 0.25);
+      const int stage = born.empty() ? 0 : born[static_cast<std::size_t>(i)];
+      return mix(birth_colour(stage), colours::paper, 0.25);
     });
     Colour springs = colours::ink;
     springs.alpha = 0.5;

@@ -31,21 +31,25 @@ struct Panel {
   std::function<void(Canvas&, double pixel)> draw;
 };
 
-/// Which nodes of a body are cells born in metamorphosis. Empty: nothing is known, all are drawn
-/// as the larva's.
-using Newborn = std::vector<bool>;  // [nodes]
+/// In which stage of life the cells of a body's nodes were born, from 0. Empty: nothing is known,
+/// all are drawn as those of the first.
+using BirthStages = std::vector<int>;  // [nodes]
 
-/// Marks the nodes of `body` whose cell was born at step `larva_steps` or later; Body::cell says
-/// which cell of `embryo` a node is.
-Newborn newborn_nodes(const core::Body& body, const core::Embryo& embryo, int larva_steps);
+/// The stage in which something was born: how many of `starts`, the steps at which the stages after
+/// the first begin (ascending), it did not come before.
+int birth_stage(int birth_step, std::span<const int> starts);
 
-/// Cells as disks, blue if born before step `larva_steps`, else red, and their links (figure 4,
-/// upper rows).
-Panel embryo_panel(const core::Embryo& embryo, int larva_steps);
+/// The same of every node of `body`; Body::cell says which cell of `embryo` a node is.
+BirthStages birth_stages(const core::Body& body, const core::Embryo& embryo,
+                         std::span<const int> starts);
 
-/// A body at rest: each cell's share of its triangles in blue or red, springs, outline, nodes
+/// Cells as disks, in the colour of the stage they were born in, and their links (figure 4, upper
+/// rows). `starts` as in birth_stage().
+Panel embryo_panel(const core::Embryo& embryo, std::span<const int> starts);
+
+/// A body at rest: each cell's share of its triangles in its colour, springs, outline, nodes
 /// (figures 4, 5). `direction`: an arrow where it moved to; ground: a line below its lowest node.
-Panel body_panel(const core::Body& body, const Newborn& newborn,
+Panel body_panel(const core::Body& body, const BirthStages& born,
                  std::optional<Point> direction = std::nullopt, bool ground = false);
 
 /// A body in motion (figures 3, 6): its nodes at `x`, `y`, every triangle coloured by S/S0.

@@ -118,14 +118,18 @@ void draw_strip(Canvas& canvas, Point at, const std::array<std::string, 3>& word
   canvas.text({at.x + length, at.y + 6}, words[2], text_size, colours::faint_ink, Align::right);
 }
 
-void draw_legend(Canvas& canvas, Legend legend, Point at) {
-  switch (legend) {
+void draw_legend(Canvas& canvas, const Sheet& sheet, Point at) {
+  switch (sheet.legend) {
     case Legend::none:
       break;
     case Legend::birth: {
       double x = at.x;
-      for (const auto& [colour, words] : {std::pair{colours::larva, "larval cells"},
-                                          std::pair{colours::adult, "born in metamorphosis"}}) {
+      for (int stage = 0; stage < sheet.stages; ++stage) {
+        const Colour colour = birth_colour(stage);
+        const std::string words = stage == 0 ? "larval cells"
+                                  : sheet.stages <= 2
+                                      ? "born in metamorphosis"
+                                      : "born in metamorphosis " + std::to_string(stage);
         canvas.fill_circle({x + 6, at.y - 4}, 6, mix(colour, colours::paper, 0.25));
         canvas.stroke_circle({x + 6, at.y - 4}, 5.5, mix(colour, colours::ink, 0.35), 1);
         canvas.text({x + 18, at.y}, words, text_size, colours::faint_ink);
@@ -198,9 +202,9 @@ void write_sheet(const Sheet& sheet, const std::string& file) {
     y += layout.row_height[r] + layout.row_caption[r] + gap;
   }
 
-  if (sheet.line_after_column >= 0) {
+  for (const int column : sheet.lines_after) {
     double x = first - gap / 2;
-    for (int c = 0; c <= sheet.line_after_column; ++c) {
+    for (int c = 0; c <= column; ++c) {
       x += layout.column_width[static_cast<std::size_t>(c)] + gap;
     }
     const std::array line{Point{x, margin + layout.head}, Point{x, y - gap}};
@@ -208,7 +212,7 @@ void write_sheet(const Sheet& sheet, const std::string& file) {
   }
 
   const double foot = layout.height - margin;
-  draw_legend(canvas, sheet.legend, {margin, foot});
+  draw_legend(canvas, sheet, {margin, foot});
   draw_scale_bar(canvas, {layout.width - margin, foot}, layout.scale);
   canvas.finish();
 }

@@ -16,11 +16,12 @@ struct Sheet {
   std::string heading;
   std::string remark;  ///< below the heading, smaller
   Legend legend = Legend::none;
+  int stages = 2;  ///< of life, that the legend of births has to name
   std::vector<std::vector<Panel>> rows;
-  int line_after_column = -1;  ///< a dashed line behind this column (figure 4); -1: none
-  double width = 1000;         ///< layout pixels the sheet may take
-  double height = 640;         ///< layout pixels the drawings may take, all rows together
-  double max_scale = 26;       ///< layout pixels per d, at most
+  std::vector<int> lines_after;  ///< columns with a dashed line behind them (figure 4)
+  double width = 1000;           ///< layout pixels the sheet may take
+  double height = 640;           ///< layout pixels the drawings may take, all rows together
+  double max_scale = 26;         ///< layout pixels per d, at most
 };
 
 /// Writes the sheet as .svg, .png or .pdf, by the ending of `file`. The same sheet gives the same

@@ -29,7 +29,7 @@ class Audit : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     made_ = std::make_unique<TemporaryDirectory>();
-    run_whole(made_->path() / "run", tiny_experiment(SearchKind::simple, 6));
+    run_whole(made_->path() / "run", tiny_experiment("simple", 6));
   }
   static void TearDownTestSuite() { made_.reset(); }
 

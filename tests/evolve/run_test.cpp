@@ -18,18 +18,20 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using tests::contents;
 using tests::lines_of;
+using tests::networks_of;
 using tests::run_in_pieces;
 using tests::run_whole;
 using tests::TemporaryDirectory;
 using tests::tiny_experiment;
+using tests::tiny_newt;
 
 constexpr int die_output = core::network_inputs + 2;
-constexpr SearchKind kinds[] = {SearchKind::simple, SearchKind::progressive, SearchKind::novelty};
+const std::string kinds[] = {"simple", "progressive", "novelty"};
 
 TEST(Run, RecordsWhatItWasAskedFor) {
   const TemporaryDirectory directory;
-  for (const SearchKind kind : kinds) {
-    const auto path = directory.path() / std::to_string(static_cast<int>(kind));
+  for (const std::string& kind : kinds) {
+    const auto path = directory.path() / kind;
     const Experiment e = tiny_experiment(kind, 6);
     const RunSummary summary = run_whole(path, e);
     EXPECT_EQ(summary.generations_done, 6);
@@ -41,17 +43,17 @@ TEST(Run, RecordsWhatItWasAskedFor) {
     EXPECT_EQ(tables["individuals"].size(), 6u * 12u);
     EXPECT_EQ(tables["checkpoint"].size(), 1u);
     EXPECT_FALSE(tables["species"].empty());
-    EXPECT_EQ(tables["archive"].empty(), kind != SearchKind::novelty);
+    EXPECT_EQ(tables["archive"].empty(), kind != "novelty");
     // Progressive search runs larvae only in its first third, and one adult for the record.
     const std::size_t all = 6 * 12 * 2;
-    EXPECT_EQ(tables["outcomes"].size(), kind == SearchKind::progressive ? all - 2 * 11 : all);
+    EXPECT_EQ(tables["outcomes"].size(), kind == "progressive" ? all - 2 * 11 : all);
   }
 }
 
 TEST(Run, ThreadsChangeNoBit) {
   const TemporaryDirectory directory;
-  for (const SearchKind kind : kinds) {
-    const std::string name = std::to_string(static_cast<int>(kind));
+  for (const std::string& kind : kinds) {
+    const std::string name = kind;
     const Experiment e = tiny_experiment(kind, 5);
     run_whole(directory.path() / (name + "-1"), e, 1);
     run_whole(directory.path() / (name + "-2"), e, 2);
@@ -60,9 +62,42 @@ TEST(Run, ThreadsChangeNoBit) {
   }
 }
 
+TEST(Run, ThreeStagesOfLifeOnOneAndTwoThreadsAndInterrupted) {
+  const TemporaryDirectory directory;
+  for (const std::string& kind : kinds) {
+    const Experiment e = tiny_newt(kind, 10);
+    const auto path = directory.path() / (kind + "-whole");
+    const RunSummary summary = run_whole(path, e, 1);
+    EXPECT_EQ(summary.best.distances.size(), 3u);
+    run_whole(directory.path() / (kind + "-threads"), e, 2);
+    run_in_pieces(directory.path() / (kind + "-pieces"), e, {1, 4, 5});
+    const auto expected = contents(path);
+    EXPECT_EQ(contents(directory.path() / (kind + "-threads")), expected);
+    EXPECT_EQ(contents(directory.path() / (kind + "-pieces")), expected);
+    // Progressive search: two parts without the adult, two without the newt beside that; of each
+    // of these generations one is completed for the record.
+    const std::size_t all = 10 * 12 * 3, without = 2 * 11 + 6 * 11;
+    EXPECT_EQ(expected.at("outcomes").size(), kind == "progressive" ? all - without : all);
+
+    Database database(path / "run.db", Database::Mode::read);
+    Statement rows(database,
+                   "SELECT from_stage, to_stage, sum(from_cells + born - died != to_cells), "
+                   "min(born), min(died) FROM metamorphosis GROUP BY 1, 2 ORDER BY 1");
+    for (const auto& [from, to] : {std::pair{120, 210}, std::pair{210, 300}}) {
+      ASSERT_TRUE(rows.step());
+      EXPECT_EQ(rows.integer(0), from);
+      EXPECT_EQ(rows.integer(1), to);
+      EXPECT_EQ(rows.integer(2), 0);  // cells are conserved
+      EXPECT_GE(rows.integer(3), 0);
+      EXPECT_GE(rows.integer(4), 0);
+    }
+    EXPECT_FALSE(rows.step());
+  }
+}
+
 TEST(Run, CheckingLinksChangesNoBit) {
   const TemporaryDirectory directory;
-  const Experiment e = tiny_experiment(SearchKind::progressive, 3);
+  const Experiment e = tiny_experiment("progressive", 3);
   run_whole(directory.path() / "unchecked", e);
   Record record(directory.path() / "checked", e, 1);
   CheckedLinks checked;
@@ -76,7 +111,7 @@ TEST(Run, CheckingLinksChangesNoBit) {
 
 TEST(Run, ChosenStepsKeepTheBits) {
   const TemporaryDirectory directory;
-  Experiment e = tiny_experiment(SearchKind::simple, 4);
+  Experiment e = tiny_experiment("simple", 4);
   for (NamedScene& named : e.scenes)
     named.scene.step = named.scene.settle_step = core::automatic_step;
   run_whole(directory.path() / "1", e, 1);
@@ -85,13 +120,13 @@ TEST(Run, ChosenStepsKeepTheBits) {
   const auto expected = contents(directory.path() / "1");
   EXPECT_EQ(contents(directory.path() / "2"), expected);
   EXPECT_EQ(contents(directory.path() / "pieces"), expected);
-  run_whole(directory.path() / "fixed", tiny_experiment(SearchKind::simple, 4));
+  run_whole(directory.path() / "fixed", tiny_experiment("simple", 4));
   EXPECT_NE(contents(directory.path() / "fixed")["outcomes"], expected.at("outcomes"));
 }
 
 TEST(Run, CountsStepsNearTheirLimit) {
   const TemporaryDirectory directory;
-  Experiment e = tiny_experiment(SearchKind::simple, 2);
+  Experiment e = tiny_experiment("simple", 2);
   EXPECT_EQ(run_whole(directory.path() / "default", e).near_step_limit, 0);
   // From the margin to the limit it is a tenth, these steps are 6 to 8 % apart: a larva with a
   // limit between 0.28 and 0.4, as there is in every population, is near it in one of them at
@@ -110,16 +145,16 @@ TEST(Run, CountsStepsNearTheirLimit) {
 
 TEST(Run, SeedsGiveOtherRuns) {
   const TemporaryDirectory directory;
-  run_whole(directory.path() / "a", tiny_experiment(SearchKind::simple, 2, 1));
-  run_whole(directory.path() / "b", tiny_experiment(SearchKind::simple, 2, 2));
+  run_whole(directory.path() / "a", tiny_experiment("simple", 2, 1));
+  run_whole(directory.path() / "b", tiny_experiment("simple", 2, 2));
   EXPECT_NE(contents(directory.path() / "a")["champions"],
             contents(directory.path() / "b")["champions"]);
 }
 
 TEST(Run, InterruptedAnywhereAndResumedIsTheSame) {
   const TemporaryDirectory directory;
-  for (const SearchKind kind : kinds) {
-    const std::string name = std::to_string(static_cast<int>(kind));
+  for (const std::string& kind : kinds) {
+    const std::string name = kind;
     const Experiment e = tiny_experiment(kind, 6);
     const auto whole = directory.path() / (name + "-whole");
     run_whole(whole, e);
@@ -137,8 +172,8 @@ TEST(Run, InterruptedAnywhereAndResumedIsTheSame) {
 
 TEST(Run, ExtendedIsTheSameAsAskedForAtFirst) {
   const TemporaryDirectory directory;
-  for (const SearchKind kind : {SearchKind::simple, SearchKind::novelty}) {
-    const std::string name = std::to_string(static_cast<int>(kind));
+  for (const std::string kind : {"simple", "novelty"}) {
+    const std::string name = kind;
     run_whole(directory.path() / (name + "-long"), tiny_experiment(kind, 6));
     run_whole(directory.path() / name, tiny_experiment(kind, 3));
     {
@@ -152,12 +187,12 @@ TEST(Run, ExtendedIsTheSameAsAskedForAtFirst) {
 }
 
 TEST(Run, RefusesGenerationsThatContradictTheRun) {
-  const Experiment simple = tiny_experiment(SearchKind::simple, 6);
+  const Experiment simple = tiny_experiment("simple", 6);
   EXPECT_NO_THROW(check_new_generations(simple, 3, 3));
   EXPECT_NO_THROW(check_new_generations(simple, 3, 60));
   EXPECT_THAT(lines_of([&] { check_new_generations(simple, 3, 2); }),
               ElementsAre(HasSubstr("--generations 2: expected at least 3")));
-  const Experiment progressive = tiny_experiment(SearchKind::progressive, 6);
+  const Experiment progressive = tiny_experiment("progressive", 6);
   EXPECT_NO_THROW(check_new_generations(progressive, 3, 6));
   EXPECT_THAT(lines_of([&] { check_new_generations(progressive, 3, 9); }),
               ElementsAre(HasSubstr("--generations 9: expected 6: progressive")));
@@ -166,7 +201,7 @@ TEST(Run, RefusesGenerationsThatContradictTheRun) {
 TEST(Run, ResumingAFinishedRunChangesNothing) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "a";
-  run_whole(path, tiny_experiment(SearchKind::simple, 2));
+  run_whole(path, tiny_experiment("simple", 2));
   const auto before = contents(path);
   {
     const std::unique_ptr<Record> record = Record::resume(path, 1);
@@ -177,20 +212,19 @@ TEST(Run, ResumingAFinishedRunChangesNothing) {
 
 TEST(Run, ChampionsReplayToTheRecordedBits) {
   const TemporaryDirectory directory;
-  for (const SearchKind kind : kinds) {
-    const auto path = directory.path() / std::to_string(static_cast<int>(kind));
+  for (const std::string& kind : kinds) {
+    const auto path = directory.path() / kind;
     run_whole(path, tiny_experiment(kind, 6));
     const RunReader reader(path);
     const Experiment e = reader.experiment();
-    const Evaluator evaluator(e, 1);
+    Evaluator evaluator(rules_of(e), 1);
     for (int generation = 0; generation < 6; ++generation) {
       const Champion champion = reader.champion(generation);
-      EvaluationSeconds seconds;
-      const Evaluated again = evaluator.evaluate_fully(champion.genome, generation, seconds);
-      EXPECT_EQ(scalar_fitness(again.evaluation), champion.eq6) << generation;
+      const Evaluated again = evaluator.evaluate_fully(compile(champion.genome), generation);
+      EXPECT_EQ(geometric_mean(evaluation_of(again)), champion.eq6) << generation;
       for (std::size_t t = 0; t < e.trials.size(); ++t) {
-        EXPECT_EQ(again.evaluation.trials[t].distance, champion.distances[t]);
-        EXPECT_EQ(core::name(again.evaluation.trials[t].status), champion.statuses[t]);
+        EXPECT_EQ(again.trials[t].distance, champion.distances[t]);
+        EXPECT_EQ(core::name(again.trials[t].status), champion.statuses[t]);
       }
     }
     // The best of the run is the best of its champions.
@@ -205,10 +239,10 @@ TEST(Run, ChampionsReplayToTheRecordedBits) {
 TEST(Run, CellsBetweenStagesBalance) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "a";
-  run_whole(path, tiny_experiment(SearchKind::novelty, 4));
+  run_whole(path, tiny_experiment("novelty", 4));
   Database database(path / "run.db", Database::Mode::read);
   Statement rows(database,
-                 "SELECT count(*), sum(larva_cells + born - died != adult_cells), sum(born), "
+                 "SELECT count(*), sum(from_cells + born - died != to_cells), sum(born), "
                  "min(born), min(died) FROM metamorphosis");
   rows.step();
   EXPECT_EQ(rows.integer(0), 4 * 12);
@@ -219,24 +253,23 @@ TEST(Run, CellsBetweenStagesBalance) {
 }
 
 TEST(Evaluator, RememberedResultsAreThoseOfAFreshEvaluation) {
-  const Experiment e = tiny_experiment(SearchKind::simple, 2);
+  const Experiment e = tiny_experiment("simple", 2);
   const PopulationState population = first_generation(e.neat, 5);
-  Evaluator remembering(e, 1);
-  EvaluationSeconds seconds;
+  Evaluator remembering(rules_of(e), 1);
   const std::vector<std::uint8_t> both = {1, 1}, larva = {1, 0};
-  const auto first = remembering.evaluate(population.genomes, both, 0, seconds);
+  const auto first = remembering.evaluate(networks_of(population.genomes), both, 0);
   // Half old, half new, in another order; then other trials, for which nothing may be reused.
   PopulationState other = first_generation(e.neat, 6);
   std::vector<Genome> mixed(population.genomes.rbegin(), population.genomes.rbegin() + 6);
   mixed.insert(mixed.end(), other.genomes.begin(), other.genomes.begin() + 6);
   for (const auto& trials : {both, larva}) {
-    const auto a = remembering.evaluate(mixed, trials, 0, seconds);
-    const auto b = Evaluator(e, 1).evaluate(mixed, trials, 0, seconds);
+    const auto a = remembering.evaluate(networks_of(mixed), trials, 0);
+    const auto b = Evaluator(rules_of(e), 1).evaluate(networks_of(mixed), trials, 0);
     for (std::size_t i = 0; i < mixed.size(); ++i) {
-      EXPECT_EQ(a[i].evaluation.evaluated, trials);
-      EXPECT_EQ(a[i].evaluation.created, b[i].evaluation.created);
+      EXPECT_EQ(a[i].evaluated, trials);
+      EXPECT_EQ(a[i].created, b[i].created);
       for (std::size_t t = 0; t < 2; ++t) {
-        EXPECT_EQ(a[i].evaluation.trials[t].distance, b[i].evaluation.trials[t].distance);
+        EXPECT_EQ(a[i].trials[t].distance, b[i].trials[t].distance);
         EXPECT_EQ(a[i].stages[t].cells, b[i].stages[t].cells);
       }
     }
@@ -253,12 +286,11 @@ std::string text_of(const core::Outcome& o) {
 }
 
 std::string text_of(const Evaluated& one) {
-  std::string text =
-      fmt::format("{} {} {}", one.evaluation.penalty, one.evaluation.created, one.evaluation.died);
+  std::string text = fmt::format("{} {} {}", one.penalty, one.created, one.died);
   for (std::size_t t = 0; t < one.stages.size(); ++t) {
     const StageCounts& stage = one.stages[t];
-    text += fmt::format(" [{} {} {} {}: {}]", one.evaluation.evaluated[t], stage.cells,
-                        stage.created, stage.died, text_of(one.evaluation.trials[t]));
+    text += fmt::format(" [{} {} {} {}: {}]", one.evaluated[t], stage.cells, stage.created,
+                        stage.died, text_of(one.trials[t]));
   }
   return text;
 }
@@ -266,7 +298,7 @@ std::string text_of(const Evaluated& one) {
 std::int64_t bodies_in(const std::vector<Evaluated>& results) {
   std::int64_t bodies = 0;
   for (const Evaluated& one : results) {
-    for (const core::Outcome& outcome : one.evaluation.trials) bodies += outcome.cells > 0;
+    for (const core::Outcome& outcome : one.trials) bodies += outcome.cells > 0;
   }
   return bodies;
 }
@@ -293,19 +325,19 @@ std::vector<Genome> with_repetitions(const std::vector<Genome>& genomes) {
 }
 
 TEST(Evaluator, ThreadsAndIdenticalWorkDoneOnceChangeNoBit) {
-  const Experiment e = tiny_experiment(SearchKind::simple, 2);
+  const Experiment e = tiny_experiment("simple", 2);
   const std::vector<Genome> distinct = first_generation(e.neat, 5).genomes;
   const std::vector<Genome> genomes = with_repetitions(distinct);
+  const std::vector<core::Network> networks = networks_of(genomes);
   const std::vector<std::uint8_t> both = {1, 1};
-  EvaluationSeconds seconds;
   const auto n = static_cast<std::int64_t>(distinct.size());
   for (const int threads : {1, 2}) {
-    Evaluator evaluator(e, threads);
-    const auto results = evaluator.evaluate(genomes, both, 0, seconds);
+    Evaluator evaluator(rules_of(e), threads);
+    const auto results = evaluator.evaluate(networks_of(genomes), both, 0);
     for (std::size_t i = 0; i < genomes.size(); ++i) {
       // A new evaluator and one genome: nothing there to be the same as.
       EXPECT_EQ(text_of(results[i]),
-                text_of(Evaluator(e, 1).evaluate({&genomes[i], 1}, both, 0, seconds).front()))
+                text_of(Evaluator(rules_of(e), 1).evaluate({&networks[i], 1}, both, 0).front()))
           << i;
     }
     EXPECT_EQ(evaluator.work().individuals, 4 * n);
@@ -315,9 +347,9 @@ TEST(Evaluator, ThreadsAndIdenticalWorkDoneOnceChangeNoBit) {
     EXPECT_EQ(evaluator.work().simulated * 4, evaluator.work().bodies);
 
     // In the next generation the originals are known, and so are the bodies of the neutral ones.
-    Evaluator other(e, threads);
-    other.evaluate(distinct, both, 0, seconds);
-    const auto later = other.evaluate(genomes, both, 0, seconds);
+    Evaluator other(rules_of(e), threads);
+    other.evaluate(networks_of(distinct), both, 0);
+    const auto later = other.evaluate(networks_of(genomes), both, 0);
     for (std::size_t i = 0; i < genomes.size(); ++i) {
       EXPECT_EQ(text_of(later[i]), text_of(results[i])) << i;
     }
@@ -328,15 +360,15 @@ TEST(Evaluator, ThreadsAndIdenticalWorkDoneOnceChangeNoBit) {
 }
 
 TEST(Evaluator, TooManyCellsCostFitness) {
-  Experiment e = tiny_experiment(SearchKind::simple, 2);
+  Experiment e = tiny_experiment("simple", 2);
   const PopulationState population = first_generation(e.neat, 5);
-  EvaluationSeconds seconds;
   e.created_limit = 10;
-  const auto results = Evaluator(e, 1).evaluate(population.genomes, {1, 1}, 0, seconds);
+  const auto results =
+      Evaluator(rules_of(e), 1).evaluate(networks_of(population.genomes), {1, 1}, 0);
   bool above = false, below = false;
   for (const Evaluated& one : results) {
-    EXPECT_EQ(one.evaluation.penalty, one.evaluation.created > 10 ? 0.1 : 1.0);
-    (one.evaluation.created > 10 ? above : below) = true;
+    EXPECT_EQ(one.penalty, one.created > 10 ? 0.1 : 1.0);
+    (one.created > 10 ? above : below) = true;
   }
   EXPECT_TRUE(above && below);  // both cases are met
 }

@@ -18,7 +18,7 @@
 namespace metamorph::tests {
 
 /// A water-to-land experiment that takes a moment: 12 individuals, short runs.
-inline evolve::Experiment tiny_experiment(evolve::SearchKind kind, int generations,
+inline evolve::Experiment tiny_experiment(const std::string& kind, int generations,
                                           std::uint64_t seed = 3) {
   evolve::Experiment e = evolve::parse_experiment(
       "name = \"tiny\"\n"
@@ -36,6 +36,23 @@ inline evolve::Experiment tiny_experiment(evolve::SearchKind kind, int generatio
   e.generations = generations;
   e.seed = seed;
   return e;
+}
+
+/// The same with a third stage, back in the water: a newt.
+inline evolve::Experiment tiny_newt(const std::string& kind, int generations) {
+  evolve::Experiment e = tiny_experiment(kind, generations);
+  e.trials[0].stage = 120;
+  e.trials[1].stage = 210;
+  e.trials.push_back(e.trials[0]);
+  e.trials[2].name = "newt";
+  e.trials[2].stage = 300;
+  return e;
+}
+
+inline std::vector<core::Network> networks_of(std::span<const evolve::Genome> genomes) {
+  std::vector<core::Network> networks;
+  for (const evolve::Genome& genome : genomes) networks.push_back(compile(genome));
+  return networks;
 }
 
 /// Every table that belongs to "the same bits", as text: numbers to the last digit, blobs in hex.

@@ -1,4 +1,4 @@
-#include "evolve/search/search.h"
+#include "metamorph/search.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,115 +8,191 @@
 #include <stdexcept>
 
 #include "evolve/search/novelty.h"
+#include "evolve/search/progressive.h"
+#include "evolve/search/registry.h"
 #include "tests/evolve/random_genomes.h"
 
 namespace metamorph::evolve {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using testing::test_stream;
 
-core::Outcome moved(double distance, double x = 0, double y = 0) {
-  core::Outcome outcome;
-  outcome.distance = distance;
-  outcome.mean_position = {x, y};
-  return outcome;
+Evaluation evaluation(std::vector<double> objectives, double factor = 1) {
+  return {std::move(objectives), {}, factor};
 }
 
-core::Outcome with_status(core::Status status) {
-  core::Outcome outcome;
-  outcome.status = status;
-  return outcome;
+Evaluation behaving(std::vector<double> descriptors, double factor = 1) {
+  return {{0}, std::move(descriptors), factor};
 }
 
-Evaluation evaluation(std::vector<core::Outcome> trials, double penalty = 1) {
-  Evaluation result;
-  result.evaluated.assign(trials.size(), 1);
-  result.trials = std::move(trials);
-  result.penalty = penalty;
-  return result;
+TEST(Root, IsWithinRounding) {
+  for (int n = 1; n <= 16; ++n) {
+    EXPECT_EQ(root(0, n), 0);
+    for (const double x : {1.0, 2.0, 3.0, 0.5}) {
+      double power = 1;
+      for (int i = 0; i < n; ++i) power *= x;
+      EXPECT_NEAR(root(power, n), x, 0x1p-52 * x) << n;
+    }
+    for (const double x : {1e-300, 0.1, 7.0, 1e300}) {
+      // Rounding of the n - 1 products is what Newton's last step sees, a root divides it by n.
+      EXPECT_NEAR(root(x, n), std::pow(x, 1.0 / n),
+                  4e-16 * (2 + std::abs(std::log(x))) * std::pow(x, 1.0 / n))
+          << x << " " << n;
+    }
+  }
 }
 
-TEST(ScalarFitness, IsTheGeometricMeanTimesThePenalty) {
-  EXPECT_EQ(scalar_fitness(evaluation({moved(4), moved(9)})), 6);
-  EXPECT_EQ(scalar_fitness(evaluation({moved(4), moved(9)}, 0.5)), 3);
-  EXPECT_EQ(scalar_fitness(evaluation({moved(4), moved(0)})), 0);
-  EXPECT_EQ(scalar_fitness(evaluation({moved(7)})), 7);
+TEST(GeometricMean, OfAnyNumberOfObjectives) {
+  EXPECT_EQ(geometric_mean(evaluation({4, 9})), 6);
+  EXPECT_EQ(geometric_mean(evaluation({4, 9}, 0.5)), 3);
+  EXPECT_EQ(geometric_mean(evaluation({4, 0})), 0);
+  EXPECT_EQ(geometric_mean(evaluation({7})), 7);
+  EXPECT_EQ(geometric_mean(evaluation({1, 8, 27})), 6);
 }
 
-TEST(ProgressiveWeight, AtTheBorders) {
+TEST(ProgressiveWeight, AtTheBordersOfTwoStages) {
   for (const int length : {3, 30, 999, 2000, 2001}) {
     for (int g = 0; g < length; ++g) {
-      const double w = progressive_weight(g, length);
+      const double w = progressive_weight(1, 2, g, length);
       const double third = length / 3.0;
       // eq 7 in plain arithmetic, off by rounding only.
       const double expected = g < third ? 0 : g >= 2 * third ? 1 : (g - third) / third;
       ASSERT_NEAR(w, expected, 1e-15 * length);
       ASSERT_EQ(w == 0, 3 * g <= length);
       ASSERT_EQ(w == 1, 3 * g >= 2 * length);
+      ASSERT_EQ(progressive_weight(0, 2, g, length), 1);
     }
   }
-  EXPECT_EQ(progressive_weight(1500, 3000), 0.5);
+  EXPECT_EQ(progressive_weight(1, 2, 1500, 3000), 0.5);
 }
 
-TEST(Progressive, EvaluatesAdultsFromTheFirstThirdOn) {
-  for (const int g : {0, 9, 10, 29}) {
-    EXPECT_TRUE(evaluates_trial(SearchKind::progressive, 0, g, 30));
-    EXPECT_EQ(evaluates_trial(SearchKind::progressive, 1, g, 30), g >= 10);
-    EXPECT_TRUE(evaluates_trial(SearchKind::simple, 1, g, 30));
-    EXPECT_TRUE(evaluates_trial(SearchKind::novelty, 1, g, 30));
+TEST(ProgressiveWeight, LetsStageAfterStageIn) {
+  for (int g = 0; g < 50; ++g) {  // five parts of ten generations
+    EXPECT_EQ(progressive_weight(1, 3, g, 50), std::clamp((g - 10) / 10.0, 0.0, 1.0)) << g;
+    EXPECT_EQ(progressive_weight(2, 3, g, 50), std::clamp((g - 30) / 10.0, 0.0, 1.0)) << g;
   }
 }
 
-TEST(Progressive, RestartsRecordsExactlyWhileTheWeightChanges) {
+SearchSetup setup_of(const std::string& kind, const std::vector<int>& stages, int generations) {
+  SearchSetup setup;
+  setup.settings.kind = kind;
+  setup.neat.population = 4;
+  for (const int stage : stages) setup.problem.objectives.push_back({"o", stage});
+  setup.problem.descriptors = {"x", "y"};
+  setup.problem.generations = generations;
+  setup.threads = 1;
+  return setup;
+}
+
+/// The scores of four individuals when they are what a search is told in a generation; in all
+/// before they are told nothing good.
+std::vector<double> score(const std::string& kind, const std::vector<int>& stages,
+                          const std::vector<Evaluation>& four, int generation, int generations) {
+  const auto search = make_search(setup_of(kind, stages, generations));
+  const std::vector<Evaluation> none(4, evaluation(std::vector<double>(stages.size(), 0.0)));
+  while (search->generation() < generation) search->tell(none);
+  return search->tell(four).scores;
+}
+
+TEST(Progressive, MeasuresAStageFromWhereItsWeightBeginsToRise) {
+  const std::vector<Evaluation> none(4, evaluation({0, 0, 0, 0}));
+  const auto search = make_search(setup_of("progressive", {5, 5, 7, 9}, 50));
+  const auto simple = make_search(setup_of("simple", {5, 5, 7, 9}, 50));
+  for (int g = 0; g < 50; ++g) {
+    const std::uint8_t second = g >= 10, third = g >= 30;
+    EXPECT_THAT(search->ask().measured, ElementsAre(1, 1, second, third)) << g;
+    EXPECT_THAT(simple->ask().measured, ElementsAre(1, 1, 1, 1));
+    search->tell(none);
+    simple->tell(none);
+  }
+}
+
+TEST(Progressive, RestartsRecordsExactlyWhileAWeightChanges) {
+  // Fitness falls with the weight, so that a record that is kept is never met again.
+  const std::vector<Evaluation> same(4, evaluation({2, 0.5}));
+  const auto search = make_search(setup_of("progressive", {1, 2}, 30));
   for (int g = 0; g < 30; ++g) {
-    EXPECT_EQ(restarts_records(SearchKind::progressive, g, 30), g > 10 && g <= 20) << g;
-    EXPECT_FALSE(restarts_records(SearchKind::simple, g, 30));
-    EXPECT_FALSE(restarts_records(SearchKind::novelty, g, 30));
+    const Told told = search->tell(same);
+    const std::size_t species = 2, stagnant = 5;
+    ASSERT_EQ(search->tables()[species].columns[stagnant].name, "stagnant");
+    std::int64_t most = 0;
+    for (const Row& row : told.rows[species]) {
+      most = std::max(most, std::get<std::int64_t>(row[stagnant]));
+    }
+    // A row tells how a species stood before its generation: the weight changes in 11 to 20.
+    EXPECT_EQ(most == 0, g < 2 || (g > 11 && g <= 21)) << g;
   }
-}
-
-std::vector<double> score(SearchKind kind, const std::vector<Evaluation>& evaluations,
-                          int generation, int generations) {
-  SearchSettings settings;
-  settings.kind = kind;
-  SearchState state = initial_state(settings);
-  const std::vector<std::int64_t> ids(evaluations.size(), 0);
-  return score_generation(settings, state, evaluations, ids, generation, generations, 1);
 }
 
 TEST(Score, SimpleAndProgressive) {
-  Evaluation larva_only = evaluation({moved(16), with_status(core::Status::empty)});
-  larva_only.evaluated[1] = 0;
-  const std::vector<Evaluation> all = {evaluation({moved(4), moved(9)}, 0.1),
-                                       evaluation({moved(4), moved(0)}), larva_only};
+  const std::vector<Evaluation> all = {evaluation({4, 9}, 0.1), evaluation({4, 0}),
+                                       evaluation({16, 0}), evaluation({0, 1})};
   const double tenth = 0.1;
-  EXPECT_THAT(score(SearchKind::simple, all, 0, 30), ElementsAre(6 * tenth, 0, 0));
-  EXPECT_THAT(score(SearchKind::progressive, all, 9, 30), ElementsAre(2 * tenth, 2, 4));
-  EXPECT_THAT(score(SearchKind::progressive, all, 15, 30),
-              ElementsAre(std::sqrt(4 * 5.0) * tenth, std::sqrt(4 * 0.5), std::sqrt(16 * 0.5)));
-  EXPECT_THAT(score(SearchKind::progressive, all, 20, 30), ElementsAre(6 * tenth, 0, 0));
-  EXPECT_THAT(score(SearchKind::progressive, {evaluation({moved(7)})}, 3, 30), ElementsAre(7));
+  EXPECT_THAT(score("simple", {1, 2}, all, 0, 30), ElementsAre(6 * tenth, 0, 0, 0));
+  EXPECT_THAT(score("progressive", {1, 2}, all, 9, 30), ElementsAre(2 * tenth, 2, 4, 0));
+  EXPECT_THAT(score("progressive", {1, 2}, all, 15, 30),
+              ElementsAre(std::sqrt(4 * 5.0) * tenth, std::sqrt(4 * 0.5), std::sqrt(16 * 0.5), 0));
+  EXPECT_THAT(score("progressive", {1, 2}, all, 20, 30), ElementsAre(6 * tenth, 0, 0, 0));
 }
 
-TEST(Score, RefusesMixedTrials) {
-  EXPECT_THROW(
-      score(SearchKind::simple, {evaluation({moved(1)}), evaluation({moved(1), moved(1)})}, 0, 1),
-      std::invalid_argument);
+TEST(Score, ProgressiveOfThreeStages) {
+  const std::vector<Evaluation> all = {evaluation({8, 0, 0}), evaluation({1, 8, 0}),
+                                       evaluation({1, 8, 27}), evaluation({0, 9, 9})};
+  EXPECT_THAT(score("progressive", {1, 2, 3}, all, 9, 50), ElementsAre(2, 1, 1, 0));
+  EXPECT_THAT(score("progressive", {1, 2, 3}, all, 25, 50), ElementsAre(0, 2, 2, 0));
+  EXPECT_THAT(score("progressive", {1, 2, 3}, all, 40, 50), ElementsAre(0, 0, 6, 0));
 }
 
-TEST(Behaviour, IsAllFinalPositionsOrNothing) {
-  EXPECT_THAT(behaviour(evaluation({moved(1, 2, 3), moved(1, 4, 5)})), ElementsAre(2, 3, 4, 5));
-  EXPECT_THAT(behaviour(evaluation({moved(1, 2, 3)})), ElementsAre(2, 3));
-  EXPECT_THAT(behaviour(evaluation({with_status(core::Status::not_settled)})), ElementsAre(0, 0));
-  for (const core::Status status : core::all_statuses) {
-    if (status == core::Status::ok || status == core::Status::not_settled) continue;
-    EXPECT_THAT(behaviour(evaluation({moved(1, 2, 3), with_status(status)})), IsEmpty());
+TEST(Score, RefusesWhatDoesNotFitTheProblem) {
+  const auto search = make_search(setup_of("simple", {1, 2}, 3));
+  EXPECT_THROW(search->tell(std::vector<Evaluation>(3, evaluation({1, 1}))), std::invalid_argument);
+  EXPECT_THROW(search->tell(std::vector<Evaluation>(4, evaluation({1}))), std::invalid_argument);
+  EXPECT_THROW(search->tell(std::vector<Evaluation>(4, {{1, 1}, {1, 2, 3}, 1})),
+               std::invalid_argument);
+}
+
+TEST(Search, OfEveryKindGoesOnFromWhatItSavedAndItsTables) {
+  for (const SearchKind& kind : search_kinds()) {
+    SCOPED_TRACE(kind.name);
+    const SearchSetup setup = setup_of(std::string(kind.name), {1, 2}, 9);
+    const auto whole = make_search(setup);
+    auto pieces = make_search(setup);
+    std::vector<std::vector<Row>> rows(whole->tables().size());
+    for (int g = 0; g < 9; ++g) {
+      std::vector<Evaluation> four;
+      for (int i = 0; i < 4; ++i) {
+        four.push_back({{1.0 + i, 2.0 + g}, {3.0 * i, 5.0 * g * (i + 1)}, 1});
+      }
+      four[1].descriptors.clear();
+      const Told a = whole->tell(four), b = pieces->tell(four);
+      EXPECT_EQ(a.scores, b.scores);
+      EXPECT_EQ(a.rows, b.rows);
+      ASSERT_EQ(a.rows.size(), rows.size());
+      for (std::size_t t = 0; t < rows.size(); ++t) {
+        rows[t].insert(rows[t].end(), a.rows[t].begin(), a.rows[t].end());
+      }
+      const auto next = make_search(setup);
+      next->load(pieces->save(), [&](const Table& table) {
+        const std::vector<Table> tables = next->tables();
+        std::size_t t = 0;
+        while (tables[t].name != table.name) ++t;
+        return rows[t];
+      });
+      EXPECT_EQ(next->save(), whole->save());
+      EXPECT_EQ(next->ask().genomes, whole->ask().genomes);
+      EXPECT_EQ(next->ask().lineage, whole->ask().lineage);
+      pieces = make_search(setup);
+      pieces->load(next->save(), [&](const Table& table) {
+        const std::vector<Table> tables = next->tables();
+        std::size_t t = 0;
+        while (tables[t].name != table.name) ++t;
+        return rows[t];
+      });
+    }
+    EXPECT_THROW(make_search(setup)->load({}, [](const Table&) { return std::vector<Row>(); }),
+                 std::runtime_error);
   }
-  Evaluation partly = evaluation({moved(1, 2, 3), moved(1, 4, 5)});
-  partly.evaluated[1] = 0;
-  EXPECT_THAT(behaviour(partly), IsEmpty());
 }
 
 // eq 8 by sorting all distances.
@@ -177,24 +253,25 @@ TEST(Novelty, OfTheOnlyOneIsTheGivenValue) {
   EXPECT_THAT(novelty(std::vector<std::vector<double>>{{}, {}}, {}, 15, 0.7, 1), ElementsAre(0, 0));
 }
 
-TEST(Novelty, ScoresBeforeItArchivesAndAppliesThePenaltyLast) {
-  SearchSettings settings;
-  settings.kind = SearchKind::novelty;
-  settings.neighbours = 1;
-  SearchState state = initial_state(settings);
+TEST(Novelty, ScoresBeforeItArchivesAndAppliesTheFactorLast) {
+  SearchSetup setup = setup_of("novelty", {1}, 100);
+  setup.settings.values["neighbours"] = 1;
+  const auto search = make_search(setup);
   // The third is as far from the first as the second is: were the second archived before the third
   // is scored, it would be its own nearest neighbour's double.
-  const std::vector<Evaluation> all = {
-      evaluation({moved(0, 0, 0)}), evaluation({moved(0, 3, 4)}, 0.1),
-      evaluation({with_status(core::Status::inverted)}), evaluation({moved(0, 3, 4.5)})};
-  const std::vector<std::int64_t> ids = {40, 41, 42, 43};
-  const std::vector<double> scores = score_generation(settings, state, all, ids, 6, 100, 1);
-  EXPECT_THAT(scores, ElementsAre(5, 0.1 * 0.5, 0, 0.5));
-  ASSERT_EQ(state.archive.size(), 1u);
-  EXPECT_EQ(state.archive[0], (ArchiveEntry{40, 6, 5, {0, 0}}));
+  const std::vector<Evaluation> all = {behaving({0, 0}), behaving({3, 4}, 0.1), behaving({}),
+                                       behaving({3, 4.5})};
+  const std::int64_t first = search->ask().lineage[0].id;
+  const Told told = search->tell(all);
+  EXPECT_THAT(told.scores, ElementsAre(5, 0.1 * 0.5, 0, 0.5));
+  const std::size_t archive = 3, sizes = 4;
+  ASSERT_EQ(search->tables()[archive].name, "archive");
+  ASSERT_EQ(told.rows[archive].size(), 1u);
+  EXPECT_EQ(told.rows[archive][0],
+            (Row{std::int64_t{0}, first, std::int64_t{0}, 5.0, "[0.0,0.0]"}));
+  EXPECT_EQ(told.rows[sizes][0], (Row{std::int64_t{0}, std::int64_t{1}, std::int64_t{1}, 1.0}));
   // Next time the archived one is a neighbour, of its own copy too.
-  EXPECT_THAT(score_generation(settings, state, all, ids, 7, 100, 1),
-              ElementsAre(0, 0.1 * 0.5, 0, 0.5));
+  EXPECT_THAT(search->tell(all).scores, ElementsAre(0, 0.1 * 0.5, 0, 0.5));
 }
 
 // Runs update_archive on novelties alone.
@@ -208,8 +285,8 @@ class Archive {
     const std::vector<std::int64_t> ids(novelties.size(), 0);
     update_archive(settings, state, behaviours, novelties, ids, ++count_);
   }
-  SearchSettings settings;
-  SearchState state = initial_state(settings);
+  NoveltySettings settings;
+  NoveltyState state{{}, 1, 0, 0};
 
  private:
   int count_ = 0;

@@ -1,4 +1,4 @@
-#include "evolve/run/starts.h"
+#include "evolve/evaluation/starts.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -7,8 +7,9 @@
 #include <array>
 #include <cmath>
 
+#include "evolve/evaluation/displaced.h"
+#include "evolve/evaluation/fingerprint.h"
 #include "evolve/run/audit.h"
-#include "evolve/run/displaced.h"
 #include "evolve/run/run_reader.h"
 #include "metamorph/development.h"
 #include "metamorph/extraction.h"
@@ -23,6 +24,7 @@ namespace {
 using core::Status;
 using testing::HasSubstr;
 using tests::contents;
+using tests::networks_of;
 using tests::run_in_pieces;
 using tests::run_whole;
 using tests::TemporaryDirectory;
@@ -39,7 +41,7 @@ Experiment with_starts(Experiment e, int starts, bool renew) {
   return e;
 }
 
-Experiment tiny_with_starts(SearchKind kind, int generations, bool renew) {
+Experiment tiny_with_starts(const std::string& kind, int generations, bool renew) {
   return with_starts(tiny_experiment(kind, generations), 3, renew);
 }
 
@@ -160,7 +162,7 @@ TEST(StartOf, MovesNodesByTheirIndexWithinTheDisplacement) {
 class StartsOfAGeneration : public testing::Test {
  protected:
   std::vector<Genome> genomes_ = [] {
-    NeatSettings settings = tiny_experiment(SearchKind::simple, 2).neat;
+    NeatSettings settings = tiny_experiment("simple", 2).neat;
     settings.population = 60;  // few genomes without a history have a body
     return first_generation(settings, 5).genomes;
   }();
@@ -168,12 +170,11 @@ class StartsOfAGeneration : public testing::Test {
 
   static std::vector<std::string> adults_of(const std::vector<Evaluated>& results) {
     std::vector<std::string> texts;
-    for (const Evaluated& one : results) texts.push_back(text_of(one.evaluation.trials[1]));
+    for (const Evaluated& one : results) texts.push_back(text_of(one.trials[1]));
     return texts;
   }
   std::vector<std::string> fresh(const Experiment& e, int generation) const {
-    EvaluationSeconds seconds;
-    return adults_of(Evaluator(e, 1).evaluate(genomes_, both_, generation, seconds));
+    return adults_of(Evaluator(rules_of(e), 1).evaluate(networks_of(genomes_), both_, generation));
   }
 };
 
@@ -182,7 +183,7 @@ TEST_F(StartsOfAGeneration, AreRunAndCombinedAsTheTrialSays) {
   one_thread.threads = 1;
   for (const bool renew : {false, true}) {
     for (const StartsCombine rule : rules) {
-      Experiment e = tiny_with_starts(SearchKind::simple, 2, renew);
+      Experiment e = tiny_with_starts("simple", 2, renew);
       e.trials[1].starts_combine = rule;
       const std::vector<std::string> results = fresh(e, 4);
       int moving = 0;
@@ -207,12 +208,11 @@ TEST_F(StartsOfAGeneration, AreRunAndCombinedAsTheTrialSays) {
 }
 
 TEST_F(StartsOfAGeneration, ThatStayAreKnownToTheNext) {
-  const Experiment e = tiny_with_starts(SearchKind::simple, 2, false);
-  Evaluator evaluator(e, 1);
-  EvaluationSeconds seconds;
-  const auto first = evaluator.evaluate(genomes_, both_, 0, seconds);
+  const Experiment e = tiny_with_starts("simple", 2, false);
+  Evaluator evaluator(rules_of(e), 1);
+  const auto first = evaluator.evaluate(networks_of(genomes_), both_, 0);
   EXPECT_GT(evaluator.work().simulated, 0);
-  const auto second = evaluator.evaluate(genomes_, both_, 1, seconds);
+  const auto second = evaluator.evaluate(networks_of(genomes_), both_, 1);
   EXPECT_EQ(evaluator.work().developed, 0);
   EXPECT_EQ(evaluator.work().simulated, 0);
   EXPECT_EQ(adults_of(second), adults_of(first));
@@ -220,21 +220,20 @@ TEST_F(StartsOfAGeneration, ThatStayAreKnownToTheNext) {
 }
 
 TEST_F(StartsOfAGeneration, ThatAreRenewedAreRunAgainWithoutDevelopingAgain) {
-  const Experiment e = tiny_with_starts(SearchKind::simple, 2, true);
-  Evaluator evaluator(e, 1);
-  EvaluationSeconds seconds;
-  const auto first = evaluator.evaluate(genomes_, both_, 0, seconds);
+  const Experiment e = tiny_with_starts("simple", 2, true);
+  Evaluator evaluator(rules_of(e), 1);
+  const auto first = evaluator.evaluate(networks_of(genomes_), both_, 0);
   const std::int64_t all = evaluator.work().simulated;
   std::int64_t larvae = 0, adults = 0;
   for (const Evaluated& one : first) {
-    larvae += one.evaluation.trials[0].cells > 0;
-    adults += one.evaluation.trials[1].cells > 0;
+    larvae += one.trials[0].cells > 0;
+    adults += one.trials[1].cells > 0;
   }
   EXPECT_GT(adults, 0);
   EXPECT_EQ(all, larvae + 3 * adults);  // every start is counted
   // Thrice, as what is kept for the next generation must last beyond it.
   for (int generation = 1; generation <= 3; ++generation) {
-    const auto later = evaluator.evaluate(genomes_, both_, generation, seconds);
+    const auto later = evaluator.evaluate(networks_of(genomes_), both_, generation);
     EXPECT_EQ(evaluator.work().developed, 0);
     EXPECT_EQ(evaluator.work().simulated, 3 * adults);  // the larvae are known
     EXPECT_EQ(evaluator.work().bodies, all);
@@ -242,7 +241,7 @@ TEST_F(StartsOfAGeneration, ThatAreRenewedAreRunAgainWithoutDevelopingAgain) {
     EXPECT_EQ(adults_of(later), fresh(e, generation));
   }
   // In the same generation once more nothing is new.
-  evaluator.evaluate(genomes_, both_, 3, seconds);
+  evaluator.evaluate(networks_of(genomes_), both_, 3);
   EXPECT_EQ(evaluator.work().simulated, 0);
 }
 
@@ -251,10 +250,9 @@ TEST_F(StartsOfAGeneration, OfEqualBodiesAreRunOnce) {
   const std::vector<Genome> again = genomes_;
   genomes_.insert(genomes_.end(), again.begin(), again.end());
   for (const bool renew : {false, true}) {
-    const Experiment e = tiny_with_starts(SearchKind::simple, 2, renew);
-    Evaluator evaluator(e, 1);
-    EvaluationSeconds seconds;
-    const auto results = adults_of(evaluator.evaluate(genomes_, both_, 7, seconds));
+    const Experiment e = tiny_with_starts("simple", 2, renew);
+    Evaluator evaluator(rules_of(e), 1);
+    const auto results = adults_of(evaluator.evaluate(networks_of(genomes_), both_, 7));
     EXPECT_EQ(evaluator.work().simulated * 2, evaluator.work().bodies);
     for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(results[i], results[i + n]);
   }
@@ -262,19 +260,18 @@ TEST_F(StartsOfAGeneration, OfEqualBodiesAreRunOnce) {
 
 // More simulations than are made at a time give what each body gives by itself.
 TEST_F(StartsOfAGeneration, MayBeMany) {
-  Experiment e = with_starts(tiny_experiment(SearchKind::simple, 2), 900, true);
+  Experiment e = with_starts(tiny_experiment("simple", 2), 900, true);
   for (NamedScene& named : e.scenes) {
     named.scene.run_steps = 2;
     named.scene.settle_quiet_steps = 0;
     named.scene.settle_max_steps = 2;
   }
-  Evaluator evaluator(e, 2);
-  EvaluationSeconds seconds;
-  const auto together = adults_of(evaluator.evaluate(genomes_, both_, 1, seconds));
+  Evaluator evaluator(rules_of(e), 2);
+  const auto together = adults_of(evaluator.evaluate(networks_of(genomes_), both_, 1));
   EXPECT_GT(evaluator.work().simulated, 4096);
   for (std::size_t i = 0; i < genomes_.size(); ++i) {
-    const Evaluated alone = Evaluator(e, 1).evaluate_fully(genomes_[i], 1, seconds);
-    EXPECT_EQ(together[i], text_of(alone.evaluation.trials[1]));
+    const Evaluated alone = Evaluator(rules_of(e), 1).evaluate_fully(compile(genomes_[i]), 1);
+    EXPECT_EQ(together[i], text_of(alone.trials[1]));
   }
 }
 
@@ -282,7 +279,7 @@ TEST(RunWithStarts, ThreadsChangeNoBit) {
   const TemporaryDirectory directory;
   for (const bool renew : {false, true}) {
     const std::string name = renew ? "renewed" : "kept";
-    const Experiment e = tiny_with_starts(SearchKind::simple, 4, renew);
+    const Experiment e = tiny_with_starts("simple", 4, renew);
     run_whole(directory.path() / (name + "-1"), e, 1);
     run_whole(directory.path() / (name + "-2"), e, 2);
     EXPECT_EQ(contents(directory.path() / (name + "-1")),
@@ -292,8 +289,8 @@ TEST(RunWithStarts, ThreadsChangeNoBit) {
 
 TEST(RunWithStarts, InterruptedAnywhereAndResumedIsTheSame) {
   const TemporaryDirectory directory;
-  for (const SearchKind kind : {SearchKind::simple, SearchKind::progressive}) {
-    const std::string name = std::to_string(static_cast<int>(kind));
+  for (const std::string kind : {"simple", "progressive"}) {
+    const std::string name = kind;
     const Experiment e = tiny_with_starts(kind, 6, true);
     run_whole(directory.path() / (name + "-whole"), e);
     const auto expected = contents(directory.path() / (name + "-whole"));
@@ -312,7 +309,7 @@ TEST(RunWithStarts, OtherStartsAreAnotherRun) {
     run_whole(directory.path() / name, e);
     return contents(directory.path() / name)["outcomes"];
   };
-  const Experiment one = tiny_experiment(SearchKind::simple, 1);
+  const Experiment one = tiny_experiment("simple", 1);
   const auto as_it_is = outcomes("one", one);
   const auto renewed = outcomes("renewed", with_starts(one, 1, true));
   EXPECT_NE(as_it_is, renewed);
@@ -327,7 +324,7 @@ TEST(RunWithStarts, TheBestIsTriedAgainWhereStartsAreRenewed) {
   const TemporaryDirectory directory;
   for (const bool renew : {false, true}) {
     const auto path = directory.path() / (renew ? "renewed" : "kept");
-    run_whole(path, with_starts(tiny_experiment(SearchKind::simple, 5), 1, renew));
+    run_whole(path, with_starts(tiny_experiment("simple", 5), 1, renew));
     const RunReader reader(path);
     int stays = 0, same = 0;
     for (int g = 1; g < 5; ++g) {
@@ -350,7 +347,7 @@ TEST(RunWithStarts, ReportsEveryStartAsAnEvaluation) {
   };
   const TemporaryDirectory directory;
   Counter counter;
-  Record record(directory.path() / "run", tiny_with_starts(SearchKind::simple, 2, true), 1);
+  Record record(directory.path() / "run", tiny_with_starts("simple", 2, true), 1);
   run(record, {1, {}, {&counter}});
   EXPECT_EQ(counter.evaluations, 2 * 12 * (1 + 3));
 }
@@ -359,15 +356,15 @@ TEST(RunWithStarts, ReportsEveryStartAsAnEvaluation) {
 TEST(RunWithStarts, AnAdultRunForTheRecordHasTheStartsOfItsGeneration) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "run";
-  const Experiment e = tiny_with_starts(SearchKind::progressive, 9, true);
+  const Experiment e = tiny_with_starts("progressive", 9, true);
   run_whole(path, e);
   const RunReader reader(path);
   int moving = 0;
   for (const int generation : {1, 2}) {
     const Champion champion = reader.champion(generation);
-    EvaluationSeconds seconds;
-    const Evaluated again = Evaluator(e, 1).evaluate_fully(champion.genome, generation, seconds);
-    EXPECT_EQ(again.evaluation.trials[1].distance, champion.distances[1]);
+    const Evaluated again =
+        Evaluator(rules_of(e), 1).evaluate_fully(compile(champion.genome), generation);
+    EXPECT_EQ(again.trials[1].distance, champion.distances[1]);
     moving += champion.distances[1] > 0;
   }
   EXPECT_GT(moving, 0);
@@ -376,7 +373,7 @@ TEST(RunWithStarts, AnAdultRunForTheRecordHasTheStartsOfItsGeneration) {
 TEST(RunWithStarts, AnAuditReplaysEveryChampionFromTheStartsOfItsGeneration) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "run";
-  run_whole(path, tiny_with_starts(SearchKind::simple, 5, true));
+  run_whole(path, tiny_with_starts("simple", 5, true));
   const RunReader reader(path);
   AuditOptions options;
   options.nearby_starts = 2;

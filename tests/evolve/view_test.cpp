@@ -20,6 +20,7 @@ namespace metamorph::evolve {
 namespace {
 
 constexpr int larva_steps = 600;
+constexpr std::array starts = {larva_steps};
 
 // The embryo whose body is `body`: cells at its nodes, the last `red` of them born late.
 core::Embryo embryo_like(const core::Body& body, int red) {
@@ -52,7 +53,7 @@ Stage stage_like(core::Body body, int red, bool ground) {
 Sheet sample_sheet() {
   const std::vector<Stage> stages = {stage_like(tests::blob_body(40, 1), 0, false),
                                      stage_like(tests::blob_body(90, 2), 50, true)};
-  Sheet sheet = champion_sheet(stages, larva_steps);
+  Sheet sheet = champion_sheet(stages, starts);
   sheet.heading = "Champion <1> & \"friends\"";
   return sheet;
 }
@@ -149,7 +150,7 @@ TEST_F(Pictures, StagesWithoutCellsOrBodyAreDrawn) {
   Stage nothing;
   nothing.title = "larva";
   const std::vector<Stage> stages = {nothing, stage_like(tests::hexagon_body(), 0, true)};
-  write_sheet(champion_sheet(stages, larva_steps), file("a.svg"));
+  write_sheet(champion_sheet(stages, starts), file("a.svg"));
   write_sheet(phase_sheet(stages), file("b.svg"));
   write_sheet(Sheet{}, file("c.svg"));
   for (const char* name : {"a.svg", "b.svg", "c.svg"}) {
@@ -184,15 +185,25 @@ TEST(Panels, NodesOfCellsBornAtTheStageEndOrLaterAreNew) {
   core::Embryo embryo = embryo_like(body, 0);
   embryo.birth_step = {0, 599, 600, 601, 30, 1199, 570};
   body.cell = {6, 5, 4, 3, 2, 1, 0};
-  EXPECT_EQ(newborn_nodes(body, embryo, 600),
-            (Newborn{false, true, false, true, true, false, false}));
+  EXPECT_EQ(birth_stages(body, embryo, starts), (BirthStages{0, 1, 0, 1, 1, 0, 0}));
+  EXPECT_EQ(birth_stages(body, embryo, std::array{30, 600, 1199}),
+            (BirthStages{1, 3, 1, 2, 2, 1, 0}));
+  EXPECT_EQ(birth_stages(body, embryo, {}), BirthStages(7, 0));
+}
+
+TEST(Colours, OfBirthsInNeighbouringStagesDiffer) {
+  for (int stage = 0; stage < 9; ++stage) {
+    const Colour a = birth_colour(stage), b = birth_colour(stage + 1);
+    EXPECT_GT(std::abs(a.red - b.red) + std::abs(a.green - b.green) + std::abs(a.blue - b.blue),
+              0.3);
+  }
 }
 
 TEST(Panels, BoxesHoldWhatIsDrawn) {
   const core::Body body = tests::blob_body(60, 3);
   const auto [left, right] = std::minmax_element(body.x.begin(), body.x.end());
   const auto [bottom, top] = std::minmax_element(body.y.begin(), body.y.end());
-  const Box embryo = embryo_panel(embryo_like(body, 0), larva_steps).box;
+  const Box embryo = embryo_panel(embryo_like(body, 0), starts).box;
   EXPECT_LE(embryo.left, *left - 0.5);
   EXPECT_GE(embryo.right, *right + 0.5);
   EXPECT_LE(embryo.bottom, *bottom - 0.5);
@@ -212,8 +223,12 @@ TEST(Sheets, DevelopmentIsDividedBehindTheLastLarvalStep) {
   const std::vector<core::Body> bodies(4, body);
   const int steps[] = {300, 600, 900, 1200};
   for (std::size_t i = 0; i < 4; ++i) embryos[i].step = steps[i];
-  EXPECT_EQ(development_sheet(embryos, bodies, 600).line_after_column, 1);
-  EXPECT_EQ(development_sheet(embryos, bodies, 1200).line_after_column, -1);
+  const auto lines = [&](const std::vector<int>& begin) {
+    return development_sheet(embryos, bodies, begin).lines_after;
+  };
+  EXPECT_EQ(lines({600}), std::vector<int>{1});
+  EXPECT_EQ(lines({1200}), std::vector<int>{});
+  EXPECT_EQ(lines({200, 300, 1000}), (std::vector<int>{0, 2}));
 }
 
 TEST(Sheets, MotionFillsRowsOfColumns) {

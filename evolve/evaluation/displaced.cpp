@@ -1,4 +1,4 @@
-#include "evolve/run/displaced.h"
+#include "evolve/evaluation/displaced.h"
 
 namespace metamorph::evolve {
 

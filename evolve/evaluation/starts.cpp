@@ -1,4 +1,4 @@
-#include "evolve/run/starts.h"
+#include "evolve/evaluation/starts.h"
 
 #include <algorithm>
 #include <cassert>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "evolve/run/displaced.h"
+#include "evolve/evaluation/displaced.h"
 
 namespace metamorph::evolve {
 

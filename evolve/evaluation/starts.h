@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <span>
 
-#include "evolve/experiment/experiment.h"
 #include "metamorph/body.h"
+#include "metamorph/evaluator.h"
 #include "metamorph/outcome.h"
 
 namespace metamorph::evolve {

@@ -1,4 +1,4 @@
-#include "evolve/run/fingerprint.h"
+#include "evolve/evaluation/fingerprint.h"
 
 #include <Random123/threefry.h>
 

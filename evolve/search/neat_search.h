@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+
+#include "evolve/genetics/population.h"
+#include "evolve/search/registry.h"
+#include "evolve/search/scorer.h"
+
+namespace metamorph::evolve {
+
+/// NEAT: a population in species, bred by the scores that a scorer gives.
+class NeatSearch : public Search {
+ public:
+  NeatSearch(const SearchSetup& setup, std::unique_ptr<Scorer> scorer);
+
+  Asked ask() const override;
+  Told tell(std::span<const Evaluation> evaluations) override;
+  int generation() const override { return population_.generation; }
+  bool is_paced() const override { return scorer_->is_paced(); }
+  std::vector<Table> tables() const override;
+  std::vector<std::uint8_t> save() const override;
+  void load(std::span<const std::uint8_t> state, const RowsOf& rows) override;
+
+ private:
+  std::vector<std::vector<Row>> rows_of(const std::vector<double>& scores) const;
+
+  NeatSettings settings_;
+  Problem problem_;
+  int threads_;
+  std::unique_ptr<Scorer> scorer_;
+  PopulationState population_;  ///< about to be evaluated
+};
+
+}  // namespace metamorph::evolve

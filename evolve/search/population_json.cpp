@@ -1,0 +1,124 @@
+#include "evolve/search/population_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace metamorph::evolve {
+namespace {
+
+using Json = nlohmann::json;
+
+// The bindings name every field: a new one does not compile before it is thought of here.
+
+Json to_json(const Individual& individual) {
+  const auto& [id, parent_a, parent_b, species] = individual;
+  return {id, parent_a, parent_b, species};
+}
+
+Individual individual_of(const Json& json) {
+  Individual individual;
+  auto& [id, parent_a, parent_b, species] = individual;
+  json.at(0).get_to(id);
+  json.at(1).get_to(parent_a);
+  json.at(2).get_to(parent_b);
+  json.at(3).get_to(species);
+  return individual;
+}
+
+Json to_json(const Species& of) {
+  const auto& [id, representative, age, best_ever, stagnant, size] = of;
+  return {id, metamorph::evolve::to_json(representative), age, best_ever, stagnant, size};
+}
+
+Species species_of(const Json& json) {
+  Species result;
+  auto& [id, representative, age, best_ever, stagnant, size] = result;
+  json.at(0).get_to(id);
+  representative = genome_of(json.at(1));
+  json.at(2).get_to(age);
+  json.at(3).get_to(best_ever);
+  json.at(4).get_to(stagnant);
+  json.at(5).get_to(size);
+  return result;
+}
+
+template <class List>
+Json list_of(const List& list) {
+  Json json = Json::array();
+  for (const auto& element : list) json.push_back(to_json(element));
+  return json;
+}
+
+template <class T, class Read>
+void read_list(const Json& json, std::vector<T>& list, Read read) {
+  for (const Json& element : json.get_ref<const Json::array_t&>()) list.push_back(read(element));
+}
+
+}  // namespace
+
+Json to_json(const Genome& genome) {
+  // Flat lists, a value after the other: a tenth of the objects.
+  const auto& [nodes, links] = genome;
+  Json::array_t node_list, link_list;
+  node_list.reserve(2 * nodes.size());
+  link_list.reserve(4 * links.size());
+  for (const auto& [id, kind] : nodes) {
+    node_list.emplace_back(id);
+    node_list.emplace_back(static_cast<int>(kind));
+  }
+  for (const auto& [innovation, from, to, weight] : links) {
+    link_list.emplace_back(innovation);
+    link_list.emplace_back(from);
+    link_list.emplace_back(to);
+    link_list.emplace_back(weight);
+  }
+  return {{"nodes", std::move(node_list)}, {"links", std::move(link_list)}};
+}
+
+Genome genome_of(const Json& json) {
+  Genome genome;
+  const auto& nodes = json.at("nodes").get_ref<const Json::array_t&>();
+  for (std::size_t i = 0; i < nodes.size(); i += 2) {
+    genome.nodes.push_back(
+        {nodes.at(i).get<int>(), static_cast<NodeKind>(nodes.at(i + 1).get<int>())});
+  }
+  const auto& links = json.at("links").get_ref<const Json::array_t&>();
+  for (std::size_t i = 0; i < links.size(); i += 4) {
+    genome.links.push_back({links.at(i).get<int>(), links.at(i + 1).get<int>(),
+                            links.at(i + 2).get<int>(), links.at(i + 3).get<double>()});
+  }
+  return genome;
+}
+
+Json to_json(const PopulationState& population) {
+  const auto& [seed, generation, genomes, individuals, species, next_individual, next_species,
+               next_innovation, next_node, compatibility_threshold] = population;
+  return {{"seed", seed},
+          {"generation", generation},
+          {"genomes", list_of(genomes)},
+          {"individuals", list_of(individuals)},
+          {"species", list_of(species)},
+          {"next_individual", next_individual},
+          {"next_species", next_species},
+          {"next_innovation", next_innovation},
+          {"next_node", next_node},
+          {"compatibility_threshold", compatibility_threshold}};
+}
+
+PopulationState population_of(const Json& json) {
+  PopulationState population;
+  auto& [seed, generation, genomes, individuals, species, next_individual, next_species,
+         next_innovation, next_node, compatibility_threshold] = population;
+  json.at("seed").get_to(seed);
+  json.at("generation").get_to(generation);
+  read_list(json.at("genomes"), genomes, genome_of);
+  read_list(json.at("individuals"), individuals, individual_of);
+  read_list(json.at("species"), species, species_of);
+  json.at("next_individual").get_to(next_individual);
+  json.at("next_species").get_to(next_species);
+  json.at("next_innovation").get_to(next_innovation);
+  json.at("next_node").get_to(next_node);
+  json.at("compatibility_threshold").get_to(compatibility_threshold);
+  return population;
+}
+
+}  // namespace metamorph::evolve

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "evolve/genetics/population.h"
+#include "evolve/search/settings.h"
+#include "metamorph/search.h"
+
+namespace metamorph::evolve {
+
+/// Two settings that are each in range but exclude each other, or the problem.
+struct Contradiction {
+  std::string key;       ///< full path of the key to blame
+  std::string expected;  ///< what its value had to be, and why
+};
+
+/// What a search is made from.
+struct SearchSetup {
+  SearchSettings settings;
+  NeatSettings neat;
+  Problem problem;
+  int threads = 0;  ///< 0: all
+};
+
+/// A kind of search. A new one costs its file, which defines one of these, and a line in
+/// registry.cpp.
+struct SearchKind {
+  std::string_view name;  ///< [search] kind
+  std::string_view help;
+  std::vector<Setting> settings;  ///< of the same name in two kinds: the same in both
+  std::unique_ptr<Search> (*make)(const SearchSetup& setup);
+  std::vector<Contradiction> (*contradictions)(const SearchSetup& setup) = nullptr;  ///< may be 0
+};
+
+/// All kinds.
+const std::vector<SearchKind>& search_kinds();
+/// Precondition: there is a kind of that name.
+const SearchKind& search_kind(std::string_view name);
+
+/// Precondition: the kind finds no contradiction.
+std::unique_ptr<Search> make_search(const SearchSetup& setup);
+
+}  // namespace metamorph::evolve
