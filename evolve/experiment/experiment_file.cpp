@@ -25,11 +25,42 @@ bool is_name(std::string_view text) {
          });
 }
 
-/// Stores a value in the key's field; false if type or range are wrong.
-bool assign(const Key& key, const toml::node& node) {
+/// Reads a list of names. What is wrong with one of them is left in `fault`.
+bool assign_names(const NameList& list, const toml::node& node, std::string& fault) {
+  const toml::array* items = node.as_array();
+  if (items == nullptr || items->empty()) return false;
+  std::vector<std::size_t> chosen;
+  for (const toml::node& item : *items) {
+    const auto name = item.value_exact<std::string>();
+    if (!name) return false;
+    const auto found = std::find(list.names.begin(), list.names.end(), *name);
+    if (found == list.names.end()) {
+      fault = fmt::format("\"{}\" is unknown", *name);
+      return false;
+    }
+    const auto at = static_cast<std::size_t>(found - list.names.begin());
+    if (std::find(chosen.begin(), chosen.end(), at) != chosen.end()) {
+      fault = fmt::format("\"{}\" stands twice", *name);
+      return false;
+    }
+    chosen.push_back(at);
+  }
+  if (list.needed < list.names.size() &&
+      std::find(chosen.begin(), chosen.end(), list.needed) == chosen.end()) {
+    fault = fmt::format("\"{}\" is missing", list.names[list.needed]);
+    return false;
+  }
+  list.set(chosen);
+  return true;
+}
+
+/// Stores a value in the key's field; false if type or range are wrong. What is more to say of that
+/// is left in `fault`.
+bool assign(const Key& key, const toml::node& node, std::string& fault) {
   struct Visitor {
     const Key& key;
     const toml::node& node;
+    std::string& fault;
     bool in_range(double value) const { return value >= key.low && value <= key.high; }
     bool operator()(int* field) const {
       const auto value = node.value_exact<std::int64_t>();
@@ -74,8 +105,9 @@ bool assign(const Key& key, const toml::node& node) {
       choice.set(static_cast<std::size_t>(found - choice.names.begin()));
       return true;
     }
+    bool operator()(const NameList& list) const { return assign_names(list, node, fault); }
   };
-  return std::visit(Visitor{key, node}, key.field);
+  return std::visit(Visitor{key, node, fault}, key.field);
 }
 
 std::string shown(const toml::node& node) {
@@ -84,7 +116,9 @@ std::string shown(const toml::node& node) {
     text << '"' << string->get() << '"';
   } else if (node.is_table()) {
     text << "a table";
-  } else if (node.is_array()) {
+  } else if (const auto* list = node.as_array(); list != nullptr && list->empty()) {
+    text << "an empty list";
+  } else if (list != nullptr) {
     text << "a list";
   } else {
     node.visit([&](const auto& value) {
@@ -181,9 +215,9 @@ class Reader {
                                   [&](const Key& k) { return k.name == name; });
     if (key == section.keys.end()) {
       unknown(where, path, shown(node), &section);
-    } else if (!assign(*key, node)) {
-      faults_.push_back(
-          fmt::format("{}: {} = {}: expected {}", where, path, shown(node), expectation(*key)));
+    } else if (std::string fault; !assign(*key, node, fault)) {
+      faults_.push_back(fmt::format("{}: {} = {}: {}expected {}", where, path, shown(node),
+                                    fault.empty() ? "" : fault + ": ", expectation(*key)));
     } else {
       origin_[path] = where;
     }
@@ -386,6 +420,10 @@ std::string describe_keys() {
     for (const Key& key : section.keys) {
       text += fmt::format("  {} = {}  ({}; {})\n", join_path(section.path, key.name),
                           value_text(key), key.help, expectation(key));
+      const NameList* list = std::get_if<NameList>(&key.field);
+      for (std::size_t i = 0; list != nullptr && i < list->names.size(); ++i) {
+        text += fmt::format("    {}: {}\n", list->names[i], list->meanings[i]);
+      }
     }
   }
   return text;
