@@ -42,7 +42,8 @@ EvaluationRules rules_of(const Experiment& e) {
 }
 
 SearchSetup search_setup_of(const Experiment& e, int threads) {
-  return {e.search, e.neat, problem_of(rules_of(e), e.generations), threads};
+  return {e.search, e.neat, problem_of(rules_of(e), e.generations), shape_of(e.development),
+          threads};
 }
 
 }  // namespace metamorph::evolve

@@ -47,7 +47,7 @@ void keep_best(std::vector<Champion>& champions, int count) {
 }
 
 core::Extraction body_of(const Genome& genome, const Experiment& experiment, int stage) {
-  const std::vector<core::Network> networks = {compile(genome)};
+  const std::vector<core::Network> networks = {compile(genome, shape_of(experiment.development))};
   const std::vector<int> stages = {stage};
   const auto embryos = core::develop(networks, experiment.development, stages, 1);
   return core::extract_body(embryos.front().front(), experiment.min_cells);
@@ -245,7 +245,8 @@ RunAudit audit(const RunReader& run, const AuditOptions& options,
     const auto c = static_cast<std::size_t>(i);
     const Champion& champion = result.champions[c].champion;
     // By itself, because the starts may be those of its generation.
-    replays[c] = Evaluator(rules, 1).evaluate_fully(compile(champion.genome), champion.generation);
+    replays[c] = Evaluator(rules, 1).evaluate_fully(
+        compile(champion.genome, shape_of(rules.development)), champion.generation);
   }
   for (std::size_t c = 0; c < replays.size(); ++c) {
     const Champion& champion = result.champions[c].champion;

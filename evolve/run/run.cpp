@@ -11,12 +11,13 @@
 namespace metamorph::evolve {
 namespace {
 
-std::vector<core::Network> compile_all(const std::vector<Genome>& genomes, int threads) {
+std::vector<core::Network> compile_all(const std::vector<Genome>& genomes,
+                                       const ControlShape& shape, int threads) {
   std::vector<core::Network> networks(genomes.size());
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(genomes.size()); ++i) {
     const auto n = static_cast<std::size_t>(i);
-    networks[n] = compile(genomes[n]);
+    networks[n] = compile(genomes[n], shape);
   }
   return networks;
 }
@@ -40,7 +41,8 @@ GenerationResult run_generation(Search& search, Evaluator& evaluator, int thread
   result.asked = search.ask();
   result.generation = result.asked.generation;
   seconds.search += watch.lap();
-  const std::vector<core::Network> networks = compile_all(result.asked.genomes, threads);
+  const std::vector<core::Network> networks =
+      compile_all(result.asked.genomes, shape_of(evaluator.rules().development), threads);
   seconds.evaluation.develop += watch.lap();
   result.individuals = evaluator.evaluate(networks, result.asked.measured, result.generation);
   result.work = evaluator.work();

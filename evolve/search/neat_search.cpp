@@ -17,7 +17,7 @@ NeatSearch::NeatSearch(const SearchSetup& setup, std::unique_ptr<Scorer> scorer)
       problem_(setup.problem),
       threads_(core::thread_count(setup.threads)),
       scorer_(std::move(scorer)),
-      population_(first_generation(settings_, problem_.seed)) {}
+      population_(first_generation(settings_, problem_.seed, setup.shape)) {}
 
 Asked NeatSearch::ask() const {
   Asked asked;

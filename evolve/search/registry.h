@@ -22,7 +22,8 @@ struct SearchSetup {
   SearchSettings settings;
   NeatSettings neat;
   Problem problem;
-  int threads = 0;  ///< 0: all
+  ControlShape shape;  ///< of the genomes' networks
+  int threads = 0;     ///< 0: all
 };
 
 /// A kind of search. A new one costs its file, which defines one of these, and a line in

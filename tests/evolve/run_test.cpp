@@ -27,7 +27,7 @@ using tests::text_of;
 using tests::tiny_experiment;
 using tests::tiny_newt;
 
-constexpr int die_output = core::network_inputs + 2;
+constexpr int die_output = node_id(core::Output::die);
 const std::string kinds[] = {"simple", "progressive", "novelty"};
 
 TEST(Run, RecordsWhatItWasAskedFor) {
@@ -252,6 +252,41 @@ TEST(Run, CellsBetweenStagesBalance) {
   EXPECT_GT(rows.integer(2), 0);
   EXPECT_GE(rows.integer(3), 0);
   EXPECT_GE(rows.integer(4), 0);
+}
+
+TEST(Run, AnotherInputIsInheritedAndThreadsChangeNoBit) {
+  const TemporaryDirectory directory;
+  Experiment e = tiny_experiment("simple", 4);
+  e.development.inputs.push_back(core::Input::neighbours);
+  run_whole(directory.path() / "1", e, 1);
+  run_whole(directory.path() / "2", e, 2);
+  EXPECT_EQ(contents(directory.path() / "1"), contents(directory.path() / "2"));
+  const RunReader run(directory.path() / "1");
+  EXPECT_EQ(run.experiment().development.inputs, e.development.inputs);
+  const Genome champion = run.champion(3).genome;
+  EXPECT_EQ(champion.nodes.front(), (NodeGene{node_id(core::Input::neighbours), NodeKind::input}));
+  EXPECT_TRUE(std::any_of(champion.links.begin(), champion.links.end(),
+                          [](const LinkGene& link) { return link.from == -1; }));
+}
+
+TEST(Evaluator, WithoutDieNoCellDies) {
+  Experiment e = tiny_experiment("simple", 1);
+  e.neat.population = 60;
+  const auto deaths = [&] {
+    const auto genomes = first_generation(e.neat, 5, shape_of(e.development)).genomes;
+    int died = 0;
+    std::vector<core::Network> networks;
+    for (const Genome& genome : genomes) {
+      networks.push_back(compile(genome, shape_of(e.development)));
+    }
+    for (const Evaluated& one : Evaluator(rules_of(e), 1).evaluate(networks, {1, 1}, 0)) {
+      died += one.died;
+    }
+    return died;
+  };
+  EXPECT_GT(deaths(), 0);
+  std::erase(e.development.outputs, core::Output::die);
+  EXPECT_EQ(deaths(), 0);
 }
 
 TEST(Evaluator, RememberedResultsAreThoseOfAFreshEvaluation) {
