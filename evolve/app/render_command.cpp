@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -75,7 +74,7 @@ std::vector<core::Embryo> embryos_of(const Subject& subject, const std::vector<i
   return core::develop({&network, 1}, subject.experiment.development, steps, 1).front();
 }
 
-/// Six steps, the stages among them where they are sixths.
+/// Six steps, evenly spread to the end.
 std::vector<int> six_steps(int end) {
   std::vector<int> steps;
   for (int k = 1; k <= 6; ++k) steps.push_back(end * k / 6);

@@ -254,13 +254,15 @@ TEST(Run, CellsBetweenStagesBalance) {
   EXPECT_GE(rows.integer(4), 0);
 }
 
-TEST(Run, AnotherInputIsInheritedAndThreadsChangeNoBit) {
+TEST(Run, AnotherInputIsInheritedAndThreadsAndPausesChangeNoBit) {
   const TemporaryDirectory directory;
   Experiment e = tiny_experiment("simple", 4);
   e.development.inputs.push_back(core::Input::neighbours);
   run_whole(directory.path() / "1", e, 1);
   run_whole(directory.path() / "2", e, 2);
+  run_in_pieces(directory.path() / "pieces", e, {2});
   EXPECT_EQ(contents(directory.path() / "1"), contents(directory.path() / "2"));
+  EXPECT_EQ(contents(directory.path() / "1"), contents(directory.path() / "pieces"));
   const RunReader run(directory.path() / "1");
   EXPECT_EQ(run.experiment().development.inputs, e.development.inputs);
   const Genome champion = run.champion(3).genome;
