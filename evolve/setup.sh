@@ -47,7 +47,8 @@ needs_of_checks='
 clang-19             program:clang++-19
 libclang-rt-19-dev   program:clang++-19
 libomp-19-dev        program:clang++-19
-clang-format-19      program:clang-format-19'
+clang-format-19      program:clang-format-19
+doxygen              program:doxygen'
 
 is_debian_12() {
   local ID='' VERSION_ID=''

@@ -22,6 +22,7 @@ CORE_MAY_INCLUDE = {
     "development": {"body"},
     "locomotion": {"body"},
     "reference": {"body", "locomotion"},
+    "example": {"body", "development", "locomotion", "reference"},
 }
 PUBLIC_OF_CORE = {
     "body": ("body", "status", "threads"),
@@ -61,6 +62,7 @@ def include_faults(name, room, public):
     for path in sources(room):
         relative = f"{name}/{path.relative_to(room)}"
         is_public = path.parent == room / "include" / "metamorph"
+        is_example = path.parent == room / "example"
         for number, quote, target in includes(path):
             first = public.get(target, target.split("/")[0])
             where = f"{relative}:{number}: "
@@ -70,6 +72,8 @@ def include_faults(name, room, public):
                 yield where + f"{name}/ may not include {target}"
             if is_public and first in ROOMS and target not in public:
                 yield where + f"a public header may include public ones only, not {target}"
+            if is_example and first in ROOMS and target not in public:
+                yield where + f"an example may include public headers only, not {target}"
 
 
 def folder_of(target):
@@ -154,9 +158,10 @@ def self_test():
         write(root, "core/body/parts.h", "metamorph/body.h", "core/locomotion/runner.h")
         write(root, "core/locomotion/runner.h", "core/development/links.h", "kernels/a.h")
         write(root, "core/stray.h", "metamorph/body.h")
+        write(root, "core/example/bodies.cpp", "metamorph/body.h", "core/body/parts.h")
         public = public_headers(root)
         assert len(list(include_faults("kernels", root / "kernels", public))) == 2
-        assert len(list(include_faults("core", root / "core", public))) == 1
+        assert len(list(include_faults("core", root / "core", public))) == 2
         # parts to runner, runner to links, stray; body and parts include each other.
         assert len(list(core_faults(root / "core"))) == 4
         (root / "stray.txt").write_text("")

@@ -78,6 +78,11 @@ format_check() {
     xargs clang-format-19 --dry-run --Werror
 }
 
+# Pages of the public headers, to read in build/doc/html.
+doc_build() {
+  mkdir -p build/doc && doxygen Doxyfile
+}
+
 release_tier() {
   part 'release build' build_all release -DMETAMORPH_TESTS=ON -DMETAMORPH_BENCH=ON || return
   run_ctest 'short tests' release --label-regex short
@@ -135,6 +140,11 @@ if [ "$mode" != quick ]; then
     part 'format' format_check
   else
     skip 'format' 'no clang-format-19'
+  fi
+  if command -v doxygen >/dev/null; then
+    part 'pages of the public headers' doc_build
+  else
+    skip 'pages of the public headers' 'no doxygen'
   fi
   if command -v clang++-19 >/dev/null; then
     clang_tier

@@ -8,12 +8,14 @@
 
 namespace metamorph::core {
 
+/// Of the arithmetic.
 enum class Precision { float32, float64 };
 
 /// drift_kick_drift: leapfrog, the velocity force at the extrapolated midpoint (default).
 /// symplectic_euler: first order, the baseline.
 enum class Method { drift_kick_drift, symplectic_euler };
 
+/// How motion is computed; the steps belong to the scene.
 struct LocomotionOptions {
   Precision precision = Precision::float32;
   Method method = Method::drift_kick_drift;

@@ -9,6 +9,7 @@
 
 namespace metamorph::core {
 
+/// Time integrators of the reference.
 enum class ReferenceMethod {
   symplectic_euler,  ///< order 1
   drift_kick_drift,  ///< order 2, the model's method
@@ -17,6 +18,7 @@ enum class ReferenceMethod {
   runge_kutta_4,     ///< order 4; in water only, likewise
 };
 
+/// How the reference computes motion, and who watches.
 struct ReferenceOptions {
   ReferenceMethod method = ReferenceMethod::drift_kick_drift;
   double step = 0;  ///< time units; 0: the scene's (or chosen, see metamorph/automatic_step.h)
