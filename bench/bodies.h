@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "evolve/genetics/genome.h"
 #include "metamorph/body.h"
 #include "metamorph/development.h"
+#include "metamorph/genome.h"
 #include "metamorph/scene.h"
 
 namespace metamorph::bench {

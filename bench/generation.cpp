@@ -11,9 +11,9 @@
 #include "bench/measure.h"
 #include "evolve/experiment/experiment_file.h"
 #include "evolve/search/novelty.h"
-#include "evolve/search/registry.h"
 #include "metamorph/evaluator.h"
 #include "metamorph/random.h"
+#include "metamorph/searches.h"
 
 namespace metamorph::bench {
 namespace {

@@ -40,7 +40,7 @@ NUMBERS = {
         "step": "One symplectic Euler step of {} per paper step", "link_limit": "longer than {} d",
         "division_space": "within {} d of that point", "coordinate_scale": "divided by {} d",
         "period_min": "T_min = {},", "period_max": "T_max = {} time units"},
-    "evolve/genetics/population.h": {
+    "evolve/include/metamorph/neat_settings.h": {
         "population": "**Population**: {},", "hidden_nodes": "{} hidden nodes",
         "initial_weight": "Weights are {} (u - u')", "species_min": "below {} species",
         "species_max": "above {},", "compatibility_threshold": "which starts at {},",
@@ -53,11 +53,11 @@ NUMBERS = {
         "multipoint": "(probability {} of this kind", "add_link": "| add link | {} |",
         "add_node": "| add node | {} |", "remove_link": "| remove link | {} |",
         "weight_limit": "within {};", "clone_tries": "bred again, {} times at most"},
-    "evolve/search/search.h": {
+    "evolve/search/novelty.h": {
         "neighbours": "k = {} nearest", "archive_threshold": "starts at {} d",
         "archive_floor": "is {} d at least", "archive_many": "more than {} additions",
         "archive_idle": "after {} generations without one"},
-    "evolve/experiment/experiment.h": {
+    "evolve/include/metamorph/evaluator.h": {
         "created_limit": "More than {} cells ever created", "created_penalty": "fitness times {}.",
         "min_cells": "Fewer than {} nodes", "start_displacement": "`start_displacement` = {} d"},
 }
@@ -202,8 +202,8 @@ def self_test():
         write(root, "core/MODEL.md", "\n".join(phrase.format("0.5") for members in
                                                NUMBERS.values() for phrase in members.values()))
         assert [*number_faults(root)] == []
-        write(root, "evolve/search/search.h", "int neighbours = 14;")
-        assert len(list(number_faults(root))) == len(NUMBERS["evolve/search/search.h"])
+        write(root, "evolve/search/novelty.h", "int neighbours = 14;")
+        assert len(list(number_faults(root))) == len(NUMBERS["evolve/search/novelty.h"])
         write(root, "CITATION.cff", "version: 1.1.0\n")
         assert len(list(version_faults(root))) == 1
 

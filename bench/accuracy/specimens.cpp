@@ -5,10 +5,10 @@
 #include <span>
 
 #include "evolve/files/genome_file.h"
-#include "evolve/genetics/genome.h"
 #include "evolve/genetics/population.h"
 #include "metamorph/development.h"
 #include "metamorph/extraction.h"
+#include "metamorph/genome.h"
 
 namespace metamorph::bench {
 namespace {

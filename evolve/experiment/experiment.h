@@ -5,12 +5,11 @@
 #include <vector>
 
 #include "evolve/genetics/population.h"
-#include "evolve/search/registry.h"
-#include "evolve/search/settings.h"
 #include "metamorph/development.h"
 #include "metamorph/evaluator.h"
 #include "metamorph/locomotion.h"
 #include "metamorph/scene.h"
+#include "metamorph/searches.h"
 
 namespace metamorph::evolve {
 

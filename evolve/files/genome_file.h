@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "evolve/files/output_file.h"
-#include "evolve/genetics/genome.h"
+#include "metamorph/genome.h"
 
 namespace metamorph::evolve {
 

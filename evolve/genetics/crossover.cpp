@@ -1,4 +1,4 @@
-#include "evolve/genetics/crossover.h"
+#include "metamorph/variation.h"
 
 #include <cstdint>
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "evolve/genetics/genome.h"
+#include "metamorph/genome.h"
 
 namespace metamorph::evolve {
 

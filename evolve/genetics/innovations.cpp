@@ -1,4 +1,4 @@
-#include "evolve/genetics/innovations.h"
+#include "metamorph/variation.h"
 
 #include <algorithm>
 

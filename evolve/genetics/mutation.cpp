@@ -1,4 +1,4 @@
-#include "evolve/genetics/mutation.h"
+#include "metamorph/variation.h"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,6 @@
 #include <tuple>
 #include <utility>
 #include <vector>
-
-#include "evolve/genetics/seed_genome.h"
 
 namespace metamorph::evolve {
 

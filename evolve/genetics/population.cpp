@@ -5,11 +5,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "evolve/genetics/innovations.h"
 #include "evolve/genetics/reproduction.h"
-#include "evolve/genetics/seed_genome.h"
 #include "evolve/genetics/species.h"
 #include "metamorph/random.h"
+#include "metamorph/variation.h"
 
 namespace metamorph::evolve {
 

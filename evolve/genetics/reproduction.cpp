@@ -6,8 +6,8 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "evolve/genetics/crossover.h"
 #include "metamorph/random.h"
+#include "metamorph/variation.h"
 
 namespace metamorph::evolve {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "evolve/genetics/mutation.h"
 #include "evolve/genetics/population.h"
+#include "metamorph/variation.h"
 
 namespace metamorph::evolve {
 

@@ -1,4 +1,4 @@
-#include "evolve/genetics/seed_genome.h"
+#include "metamorph/variation.h"
 
 #include <algorithm>
 

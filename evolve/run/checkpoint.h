@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "evolve/genetics/genome.h"
+#include "metamorph/genome.h"
 
 namespace metamorph::evolve {
 

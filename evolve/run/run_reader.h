@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "evolve/experiment/experiment.h"
-#include "evolve/genetics/genome.h"
 #include "metamorph/evaluator.h"
+#include "metamorph/genome.h"
 
 namespace metamorph::evolve {
 

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "evolve/genetics/population.h"
-#include "evolve/search/registry.h"
 #include "evolve/search/scorer.h"
+#include "metamorph/searches.h"
 
 namespace metamorph::evolve {
 

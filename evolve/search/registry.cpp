@@ -1,4 +1,4 @@
-#include "evolve/search/registry.h"
+#include "metamorph/searches.h"
 
 #include <algorithm>
 #include <cassert>

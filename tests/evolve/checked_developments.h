@@ -11,10 +11,8 @@
 
 #include "core/development/link_check.h"
 #include "evolve/files/genome_file.h"
-#include "evolve/genetics/innovations.h"
-#include "evolve/genetics/mutation.h"
-#include "evolve/genetics/seed_genome.h"
 #include "metamorph/development.h"
+#include "metamorph/variation.h"
 
 namespace metamorph::evolve::testing {
 

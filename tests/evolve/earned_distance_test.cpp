@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "evolve/genetics/genome.h"
 #include "evolve/genetics/population.h"
 #include "metamorph/body.h"
 #include "metamorph/development.h"
 #include "metamorph/extraction.h"
+#include "metamorph/genome.h"
 #include "metamorph/locomotion.h"
 #include "metamorph/random.h"
 #include "metamorph/scene.h"

@@ -10,7 +10,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "evolve/genetics/genome.h"
+#include "metamorph/genome.h"
 #include "tests/bodies.h"
 #include "tests/evolve/random_genomes.h"
 

@@ -1,4 +1,4 @@
-#include "evolve/genetics/genome.h"
+#include "metamorph/genome.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

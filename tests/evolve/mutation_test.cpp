@@ -1,4 +1,4 @@
-#include "evolve/genetics/mutation.h"
+#include "metamorph/variation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

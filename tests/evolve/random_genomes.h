@@ -3,12 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "evolve/genetics/crossover.h"
-#include "evolve/genetics/innovations.h"
-#include "evolve/genetics/mutation.h"
 #include "evolve/genetics/population.h"
-#include "evolve/genetics/seed_genome.h"
 #include "metamorph/random.h"
+#include "metamorph/variation.h"
 
 namespace metamorph::evolve::testing {
 

@@ -9,7 +9,7 @@
 
 #include "evolve/search/novelty.h"
 #include "evolve/search/progressive.h"
-#include "evolve/search/registry.h"
+#include "metamorph/searches.h"
 #include "tests/evolve/random_genomes.h"
 
 namespace metamorph::evolve {

@@ -13,9 +13,9 @@
 
 #include "core/body/outline_crossing.h"
 #include "evolve/files/genome_file.h"
-#include "evolve/genetics/genome.h"
 #include "metamorph/development.h"
 #include "metamorph/extraction.h"
+#include "metamorph/genome.h"
 #include "metamorph/locomotion.h"
 #include "metamorph/scene.h"
 #include "metamorph/status.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evolve/genetics/genome.h"
 #include "evolve/genetics/population.h"
-#include "evolve/genetics/seed_genome.h"
+#include "metamorph/genome.h"
+#include "metamorph/variation.h"
 #include "tests/evolve/random_genomes.h"
 
 namespace metamorph::evolve {

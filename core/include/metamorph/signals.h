@@ -22,7 +22,7 @@ struct SignalEntry {
 };
 
 /// Every input, in the order of the enum. A new one costs a line here, its value in
-/// core/development/control.h and the id of its node in evolve/genetics/control_shape.h.
+/// core/development/control.h and the id of its node in evolve/include/metamorph/control_shape.h.
 inline constexpr std::array<SignalEntry<Input>, 7> input_signals = {{
     {Input::time, "time", "share of development that is over, 0 to 1"},
     {Input::x, "x", "position along x, coordinate_scale is 1"},

@@ -3,12 +3,13 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "evolve/genetics/genome.h"
 #include "metamorph/evaluation.h"
+#include "metamorph/genome.h"
 
 namespace metamorph::evolve {
 
@@ -69,11 +70,16 @@ class Search {
 
   virtual std::vector<Table> tables() const { return {}; }
   /// All that decides how it goes on, but for what can be read back from its tables.
-  virtual std::vector<std::uint8_t> save() const = 0;
+  /// A search that does not say how it is saved throws std::logic_error: no record can keep it.
+  virtual std::vector<std::uint8_t> save() const {
+    throw std::logic_error("this search cannot be saved");
+  }
   /// Gives the rows of one of its tables, in order of their keys.
   using RowsOf = std::function<std::vector<Row>(const Table&)>;
   /// The inverse. Throws std::runtime_error if the state is not one that this search saved.
-  virtual void load(std::span<const std::uint8_t> state, const RowsOf& rows) = 0;
+  virtual void load(std::span<const std::uint8_t> /*state*/, const RowsOf& /*rows*/) {
+    throw std::logic_error("this search cannot be saved");
+  }
 };
 
 }  // namespace metamorph::evolve

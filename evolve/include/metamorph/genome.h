@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "evolve/genetics/control_shape.h"
+#include "metamorph/control_shape.h"
 #include "metamorph/network.h"
 
 namespace metamorph::evolve {

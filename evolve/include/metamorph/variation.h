@@ -1,0 +1,79 @@
+#pragma once
+
+#include <map>
+#include <utility>
+
+#include "metamorph/control_shape.h"
+#include "metamorph/genome.h"
+#include "metamorph/neat_settings.h"
+#include "metamorph/random.h"
+
+// How genomes vary: the first ones, crossover, mutation, and the numbers of what mutation adds.
+
+namespace metamorph::evolve {
+
+/// Topology of generation 0: every input to every hidden node, every hidden node to every output,
+/// the bias to every output; nothing else. Inputs and outputs are those of the shape. Weights
+/// triangular on +-settings.initial_weight. All seed genomes of a run share their innovation
+/// numbers, 0 to links - 1.
+Genome seed_genome(const NeatSettings& settings, RandomStream& stream,
+                   const ControlShape& shape = {});
+
+/// A weight as new links get it: triangular on +-settings.initial_weight, within the limit.
+double new_weight(const NeatSettings& settings, RandomStream& stream);
+
+/// Crosses two sound genomes. The child has the nodes and links of the fitter one; the weight of a
+/// link that both have (same innovation number) comes from either with equal chance, or is their
+/// mean if `averaging`. The structure is the fitter's, so a crossover cannot close a cycle.
+Genome cross(const Genome& fitter, const Genome& other, bool averaging, RandomStream& stream);
+
+enum class MutationKind { none, weights, add_link, add_node, remove_link };
+
+/// A structural change that needs innovation numbers. Children are bred in parallel without them;
+/// the numbers are given afterwards, in order of the children (Innovations).
+struct StructuralChange {
+  MutationKind kind = MutationKind::none;  ///< none, add_link or add_node
+  int from = 0, to = 0;                    ///< the new link, or the link to split
+  double weight = 0;                       ///< of a new link
+  bool operator==(const StructuralChange&) const = default;
+};
+
+/// Mutates a sound genome by exactly one kind of mutation, drawn by roulette over the four rates;
+/// one that is impossible for this genome is drawn again. Weights and removed links are changed in
+/// place; an added link or node is left in `change`. Returns the kind, or none where no kind with
+/// a rate above 0 is possible.
+///
+/// - weights: with probability settings.severe all are drawn anew as in the seed genome, else each
+///   moves by settings.weight_change * triangular; within +-settings.weight_limit.
+/// - add link: a uniformly drawn pair among all that are not linked and would close no cycle.
+/// - add node: splits a uniformly drawn link that does not come from the bias.
+/// - remove link: any but the last one; hidden nodes left without any link go with it.
+MutationKind mutate(Genome& genome, StructuralChange& change, const NeatSettings& settings,
+                    RandomStream& stream);
+
+/// Gives innovation numbers and node ids to the structural changes of one generation: the same
+/// change (a link between the same nodes, a split of a link between the same nodes) gets the same
+/// numbers, a new one the next free ones.
+class Innovations {
+ public:
+  /// Borrows the two counters of the population; they are advanced in place.
+  Innovations(int& next_innovation, int& next_node);
+
+  /// Carries out a change left by mutate(). An added node gets incoming weight 1 and the split
+  /// link's weight outgoing; the split link goes.
+  void apply(const StructuralChange& change, const NeatSettings& settings, Genome& genome);
+
+ private:
+  struct Split {
+    int node, in, out;  // id, innovation numbers
+  };
+  int link_number(int from, int to);
+  Split split_numbers(int from, int to);
+
+  int& next_innovation_;
+  int& next_node_;
+  std::map<std::pair<int, int>, int> links_;
+  std::map<std::pair<int, int>, Split> splits_;
+};
+
+}  // namespace metamorph::evolve
