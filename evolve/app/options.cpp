@@ -37,15 +37,15 @@ CLI::Validator number_check(T low, T high, const char* kind, const std::string& 
       "");
 }
 
-/// An option that takes one of a few names for a value; `names` starts with the default.
-template <class T>
+/// An option that takes one of a few names for a value; `table` starts with the default.
+template <class T, std::size_t size>
 void add_choice(CLI::App& command, const std::string& option, T& value,
-                const std::vector<std::pair<std::string, T>>& names, const std::string& help) {
+                const std::array<core::Named<T>, size>& table, const std::string& help) {
   std::vector<std::string> keys;
-  for (const auto& [name, meaning] : names) keys.push_back(name);
-  const auto set = [&value, names](const std::string& chosen) {
-    for (const auto& [name, meaning] : names) {
-      if (name == chosen) value = meaning;
+  for (const auto& entry : table) keys.emplace_back(entry.name);
+  const auto set = [&value, &table](const std::string& chosen) {
+    for (const auto& entry : table) {
+      if (entry.name == chosen) value = entry.value;
     }
   };
   command.add_option_function<std::string>(option, set, help)
@@ -88,15 +88,8 @@ void add_development_options(CLI::App& command, core::DevelopmentRules& rules, i
 }
 
 void add_locomotion_options(CLI::App& command, core::LocomotionOptions& options) {
-  using core::Method;
-  using core::Precision;
-  add_choice<Method>(command, "--method", options.method,
-                     {{"drift_kick_drift", Method::drift_kick_drift},
-                      {"symplectic_euler", Method::symplectic_euler}},
-                     "Integrator");
-  add_choice<Precision>(command, "--precision", options.precision,
-                        {{"float32", Precision::float32}, {"float64", Precision::float64}},
-                        "Arithmetic");
+  add_choice(command, "--method", options.method, core::method_names, "Integrator");
+  add_choice(command, "--precision", options.precision, core::precision_names, "Arithmetic");
 }
 
 void add_scene_option(CLI::App& command, std::string& name) {
