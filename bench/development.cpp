@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/bodies.h"
+#include "bench/cgal_opponents.h"
 #include "bench/measure.h"
 #include "core/development/delaunay.h"
 #include "core/development/links.h"
@@ -114,6 +115,66 @@ void triangulate(benchmark::State& state) {
     }
   }
   report(state, counters, count(courses), "renewal");
+}
+
+/// Stops the benchmark where `renewed` does not give the edges of the library's own triangulation.
+/// renewed(first, renewal, edges): `first` of a development.
+template <class Renew>
+void expect_edges(benchmark::State& state, const std::vector<std::vector<Renewal>>& courses,
+                  Renew&& renewed) {
+  core::Triangulation triangulation;
+  Edges edges;
+  for (const auto& course : courses) {
+    for (const Renewal& renewal : course) {
+      renewed(&renewal == &course.front(), renewal, edges);
+      std::sort(edges.begin(), edges.end());
+      core::triangulate(renewal.x, renewal.y, triangulation);
+      if (edges != triangulation.edges) state.SkipWithError("other edges");
+    }
+  }
+}
+
+/// Edges by CGAL from nothing, without sorting them and without faces.
+void cgal_insertion(benchmark::State& state) {
+  const auto courses = renewals();
+  Edges edges;
+  const HardwareCounters counters;
+  for (auto _ : state) {
+    for (const auto& course : courses) {
+      for (const Renewal& renewal : course) {
+        cgal_insert(renewal.x, renewal.y, edges);
+        benchmark::DoNotOptimize(edges.data());
+      }
+    }
+  }
+  report(state, counters, count(courses), "renewal");
+  expect_edges(state, courses, [](bool, const Renewal& renewal, Edges& found) {
+    cgal_insert(renewal.x, renewal.y, found);
+  });
+}
+
+/// Edges of a triangulation that CGAL keeps and whose points it moves.
+void cgal_moves(benchmark::State& state) {
+  const auto courses = renewals();
+  CgalMoves triangulation;
+  Edges edges;
+  const HardwareCounters counters;
+  for (auto _ : state) {
+    for (const auto& course : courses) {
+      triangulation.clear();
+      for (const Renewal& renewal : course) {
+        triangulation.update(renewal.x, renewal.y, renewal.previous);
+        triangulation.list(edges);
+        benchmark::DoNotOptimize(edges.data());
+      }
+    }
+  }
+  report(state, counters, count(courses), "renewal");
+  expect_edges(state, courses, [&](bool first, const Renewal& renewal, Edges& found) {
+    if (first) triangulation.clear();
+    triangulation.update(renewal.x, renewal.y, renewal.previous);
+    triangulation.list(found);
+  });
 }
 
 /// Everything that development does to renew its neighbours; the links must be those of a full
@@ -242,6 +303,8 @@ BENCHMARK_CAPTURE(develop, larva_and_adult, {600, 1200})->Unit(benchmark::kMilli
 BENCHMARK_CAPTURE(develop, larva, {600})->Unit(benchmark::kMillisecond);
 BENCHMARK(repair)->Unit(benchmark::kMillisecond);
 BENCHMARK(triangulate)->Unit(benchmark::kMillisecond);
+BENCHMARK(cgal_insertion)->Unit(benchmark::kMillisecond);
+BENCHMARK(cgal_moves)->Unit(benchmark::kMillisecond);
 BENCHMARK(renew)->Unit(benchmark::kMillisecond);
 BENCHMARK(renew_anew)->Unit(benchmark::kMillisecond);
 BENCHMARK(infer<float>)->Arg(64)->Arg(256)->Unit(benchmark::kMicrosecond);

@@ -119,6 +119,11 @@ class Bars:
         yield ("renewed triangulation against CGAL's from nothing", ">=", 5, 20, "x",
                "bench_development: triangulate, repair",
                lambda: self.ratio("development", "triangulate", "repair"))
+        for opponent, how in (("cgal_moves", "moving the points of a kept one"),
+                              ("cgal_insertion", "inserting anew, edges only")):
+            yield (f"the same against CGAL {how}", ">=", 5, 20, "x",
+                   f"bench_development: {opponent}, repair",
+                   lambda opponent=opponent: self.ratio("development", opponent, "repair"))
         yield ("the same with the links chosen and listed", ">=", 5, 20, "x",
                "bench_development: renew_anew, renew",
                lambda: self.ratio("development", "renew_anew", "renew"))

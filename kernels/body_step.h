@@ -32,9 +32,8 @@ struct Records {
 ///
 /// `nodes` is where they are read and written, see Records.
 template <class T, Terms terms, class Nodes>
-inline void step_body(const BodyShape<T>& shape, BodyState<T>& state,
-                      const StepCoefficients<T>& c, Turn<T> n, StepExtremes<T>& seen,
-                      Nodes&& nodes) {
+inline void step_body(const BodyShape<T>& shape, BodyState<T>& state, const StepCoefficients<T>& c,
+                      Turn<T> n, StepExtremes<T>& seen, Nodes&& nodes) {
   using Pack = Lanes<T>;
   const Pack zero(T(0)), h(c.step), extrapolate(c.extrapolate);
   const Pack extrapolate_share(c.extrapolate / c.step);
@@ -84,8 +83,8 @@ inline void step_body(const BodyShape<T>& shape, BodyState<T>& state,
 }
 
 template <class T, Terms terms>
-inline void step_body(const BodyShape<T>& shape, BodyState<T>& state,
-                      const StepCoefficients<T>& c, Turn<T> n, StepExtremes<T>& seen) {
+inline void step_body(const BodyShape<T>& shape, BodyState<T>& state, const StepCoefficients<T>& c,
+                      Turn<T> n, StepExtremes<T>& seen) {
   step_body<T, terms>(shape, state, c, n, seen, Records<T>{shape, state});
 }
 

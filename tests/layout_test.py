@@ -25,10 +25,10 @@ CORE_MAY_INCLUDE = {
     "example": {"body", "development", "locomotion", "reference"},
 }
 PUBLIC_OF_CORE = {
-    "body": ("body", "status", "threads"),
+    "body": ("body", "named", "status", "threads"),
     "development": ("development", "extraction", "network", "signals"),
     "locomotion": ("automatic_step", "locomotion", "motion", "outcome", "outcome_fields",
-                   "scene", "stability", "step_refusal"),
+                   "scene", "scene_fields", "stability", "step_refusal"),
     "reference": ("reference",),
 }
 TOP_LEVEL_FOLDERS = set(ROOMS)

@@ -13,7 +13,8 @@ namespace {
 
 using Eigen::MatrixXd;
 
-/// Only what every body has, at rest and without surroundings.
+/// Only what acts on a body at rest: drag has no slope there, ground and outline act by impulses or
+/// not at all. A force that is not switched off here counts.
 Scene bare(Scene scene, double damping) {
   scene.damping = damping;
   scene.amplitude = 0;

@@ -6,6 +6,10 @@
 #include <array>
 #include <cassert>
 #include <iterator>
+#include <type_traits>
+#include <utility>
+
+#include "metamorph/scene_fields.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -41,6 +45,20 @@ NameList signal_list(std::vector<Signal>& field,
     for (const std::size_t i : chosen) field.push_back(static_cast<Signal>(i));
   };
   return list;
+}
+
+template <class Enum, std::size_t size>
+Choice choice(Enum& field, const std::array<core::Named<Enum>, size>& table) {
+  Choice result;
+  for (const auto& entry : table) result.names.push_back(entry.name);
+  result.get = [&field, &table] {
+    const auto found = std::find_if(table.begin(), table.end(),
+                                    [&](const auto& entry) { return entry.value == field; });
+    assert(found != table.end());
+    return static_cast<std::size_t>(found - table.begin());
+  };
+  result.set = [&field, &table](std::size_t i) { field = table[i].value; };
+  return result;
 }
 
 Choice base_choice(NamedScene& named) {
@@ -98,9 +116,8 @@ Section locomotion_section(Experiment& e) {
   LocomotionSettings& l = e.locomotion;
   return {"locomotion",
           "how motion is computed; the step belongs to the scene",
-          {{"precision", choice(l.precision, {"float32", "float64"}), 0, 0, "of the arithmetic"},
-           {"method", choice(l.method, {"drift_kick_drift", "symplectic_euler"}), 0, 0,
-            "time integrator"}}};
+          {{"precision", choice(l.precision, core::precision_names), 0, 0, "of the arithmetic"},
+           {"method", choice(l.method, core::method_names), 0, 0, "time integrator"}}};
 }
 
 Choice search_choice(SearchSettings& s) {
@@ -208,38 +225,26 @@ Section trial_section(Trial& t) {
 }
 
 Section scene_section(NamedScene& named) {
-  core::Scene& s = named.scene;
-  return {"scenes." + s.name,
-          "an environment; units d, cell mass, spring constant 1; steps are 0.2 time units",
-          {{"base", base_choice(named), 0, 0, "where the defaults come from"},
-           {"stiffness", &s.stiffness, 0, 1e6, "k of eq 2"},
-           {"damping", &s.damping, 0, 1e6, "c of eq 2"},
-           {"pressure", &s.pressure, 0, 1e6, "c_p of eq 1; 0: none"},
-           {"amplitude", &s.amplitude, 0, 0.49, "A of eq 3"},
-           {"min_pressure_area", &s.min_pressure_area, 0, 1e6, "smaller triangles have none, d^2"},
-           {"drag", &s.drag, 0, 0, "water: eq 4 and 5"},
-           {"drag_normal", &s.drag_normal, 0, 1e6, "d_N"},
-           {"drag_tangential", &s.drag_tangential, 0, 1e6, "d_T"},
-           {"ground", &s.ground, 0, 0, "land: gravity, contact and friction"},
-           {"gravity", &s.gravity, 0, 1e3, "g"},
-           {"slope_degrees", &s.slope_degrees, -89, 89, "gravity is turned by it; +x is uphill"},
-           {"friction", &s.friction, 0, 1e3, "mu"},
-           {"self_collision", &s.self_collision, 0, 0, "the outline is solid"},
-           {"collision_stiffness", &s.collision_stiffness, 0, 1e6, "k_s"},
-           {"collision_gap", &s.collision_gap, 0, 1e3, "it repels itself below this, d"},
-           {"collision_least_gap", &s.collision_least_gap, 0, 1e3, "it comes no nearer, d"},
-           {"step", Step{&s.step}, 1e-6, 10, "time units per integrator step; auto: by body"},
-           {"run_steps", &s.run_steps, 1, no_limit, "actuation, ramp included, steps"},
-           {"ramp_steps", &s.ramp_steps, 0, no_limit, "steps over which actuation starts"},
-           {"distance", choice(s.distance, {"euclidean", "horizontal", "rightward"}), 0, 0,
-            "what counts as distance"},
-           {"settle_step", Step{&s.settle_step}, 1e-6, 10, "time units per step while settling"},
-           {"settle_damping", &s.settle_damping, 0, 1e6, "c while settling"},
-           {"settle_drag", &s.settle_drag, 0, 1e6, "drag per node while settling"},
-           {"settle_speed", &s.settle_speed, 0, 1e6, "quiet below this, d per time unit"},
-           {"settle_quiet_steps", &s.settle_quiet_steps, 0, no_limit, "steps that must be quiet"},
-           {"settle_max_steps", &s.settle_max_steps, 0, no_limit, "then start anyway"},
-           {"settle_range", &s.settle_range, 0, no_limit, "what goes farther starts anyway, d"}}};
+  Section section{"scenes." + named.scene.name,
+                  "an environment; units d, cell mass, spring constant 1; steps are 0.2 time units",
+                  {{"base", base_choice(named), 0, 0, "where the defaults come from"}}};
+  core::for_each_scene_field([&](const auto& field) {
+    auto& value = named.scene.*field.member;
+    Key key{field.name, &named.base, field.range.low, field.range.high, field.meaning};
+    if constexpr (std::is_same_v<decltype(value), core::DistanceRule&>) {
+      key.field = choice(value, core::distance_rule_names);
+    } else if constexpr (std::is_same_v<decltype(value), double&>) {
+      if (field.is_step()) {
+        key.field = Step{&value};
+      } else {
+        key.field = &value;
+      }
+    } else {
+      key.field = &value;
+    }
+    section.keys.push_back(std::move(key));
+  });
+  return section;
 }
 
 std::vector<Section> all_sections(Experiment& experiment) {

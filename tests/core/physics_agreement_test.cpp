@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "metamorph/scene.h"
+#include "metamorph/scene_fields.h"
 #include "metamorph/status.h"
 #include "tests/bodies.h"
 #include "tests/core/agreement.h"
@@ -61,7 +65,16 @@ TEST_P(Agreement, OnEveryCoefficient) {
   const core::Body body = blob_body(30, 3);
   const core::Scene water = lasting(core::water_scene(), 100);
   const core::Scene land = lasting(core::land_scene(), 50);
+  // What the scenes themselves set, or what is no coefficient of a force.
+  std::set<std::string_view> varied = {"ground",     "collision_gap",    "run_steps",
+                                       "distance",   "settle_max_steps", "settle_range",
+                                       "settle_step"};
   const auto with = [&](core::Scene scene, auto member, auto value) {
+    core::for_each_scene_field([&](const auto& field) {
+      if constexpr (std::is_same_v<decltype(field.member), std::remove_cvref_t<decltype(member)>>) {
+        if (field.member == member) varied.insert(field.name);
+      }
+    });
     scene.*member = value;
     scene.name += ", coefficient " + std::to_string(value);
     expect_agreement(GetParam(), body, scene);
@@ -90,6 +103,9 @@ TEST_P(Agreement, OnEveryCoefficient) {
   with(land, &core::Scene::settle_drag, 0.05);
   with(land, &core::Scene::settle_speed, 0.002);
   with(land, &core::Scene::settle_quiet_steps, 100);
+  core::for_each_scene_field([&](const auto& field) {
+    EXPECT_TRUE(varied.contains(field.name)) << field.name << " is compared with no other value";
+  });
 }
 
 TEST_P(Agreement, AfterManyPeriods) {

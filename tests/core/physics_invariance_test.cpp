@@ -5,11 +5,12 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "metamorph/random.h"
-#include "metamorph/scene.h"
+#include "metamorph/scene_fields.h"
 #include "tests/bodies.h"
 #include "tests/physics.h"
 #include "tests/simulators.h"
@@ -148,24 +149,16 @@ TEST_P(Invariance, OfPlaceAndHandednessOnLand) {
   EXPECT_TRUE(within(difference(GetParam(), strip_body(20), scene, {.a = -1}), amplified));
 }
 
-/// The scene and body in units that are 2^length of d, 2^time of the time unit and, for the forces
-/// per displacement, 2^-2time of k.
+/// The scene and body in units that are 2^length of d and 2^time of the time unit: every field by
+/// its unit.
 core::Scene rescaled(core::Scene scene, int length, int time) {
-  const double d = std::ldexp(1.0, length), t = std::ldexp(1.0, time);
-  for (double* k : {&scene.stiffness, &scene.pressure, &scene.collision_stiffness}) *k /= t * t;
-  for (double* c : {&scene.damping, &scene.settle_damping, &scene.settle_drag}) *c /= t;
-  for (double* drag : {&scene.drag_normal, &scene.drag_tangential}) *drag /= d * d;
-  scene.gravity *= d / (t * t);
-  scene.settle_speed *= d / t;
-  scene.settle_range *= d;
-  scene.collision_gap *= d;
-  scene.collision_least_gap *= d;
-  scene.min_pressure_area *= d * d;
-  scene.step *= t;
-  scene.settle_step *= t;
-  for (int* steps :
-       {&scene.run_steps, &scene.ramp_steps, &scene.settle_quiet_steps, &scene.settle_max_steps})
-    *steps = static_cast<int>(*steps * t);
+  core::for_each_scene_field([&](const auto& field) {
+    auto& value = scene.*field.member;
+    using Value = std::remove_reference_t<decltype(value)>;
+    const double factor = std::ldexp(1.0, length * field.unit.length + time * field.unit.time);
+    if constexpr (std::is_same_v<Value, double>) value *= factor;
+    if constexpr (std::is_same_v<Value, int>) value = static_cast<int>(value * factor);
+  });
   return scene;
 }
 

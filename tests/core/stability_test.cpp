@@ -5,11 +5,13 @@
 #include <cmath>
 #include <ostream>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "core/reference/stability.h"
 #include "core/reference/system.h"
+#include "metamorph/scene_fields.h"
 #include "tests/bodies.h"
 #include "tests/physics.h"
 #include "tests/tolerance.h"
@@ -104,6 +106,42 @@ TEST_P(FastStepLimit, IsThatOfLinearTheory) {
   EXPECT_TRUE(within(found.sharp / limit - 1, 0.03)) << found.sharp << " " << limit;
   EXPECT_LE(found.safe, limit * (1 + 1e-6));
   EXPECT_GT(found.safe, 0.5 * limit);
+}
+
+/// `scene` with one field after the other changed: a number to four times what it was, or to 1; and
+/// all switches on, so that no force is left out.
+std::vector<core::Scene> every_coefficient(core::Scene scene) {
+  core::for_each_scene_field([&](const auto& field) {
+    if constexpr (std::is_same_v<decltype(field.member), bool core::Scene::*>)
+      scene.*field.member = true;
+  });
+  std::vector<core::Scene> scenes = {scene};
+  core::for_each_scene_field([&](const auto& field) {
+    if constexpr (std::is_same_v<decltype(field.member), double core::Scene::*>) {
+      core::Scene changed = scene;
+      double& value = changed.*field.member;
+      value = value == 0 ? 1 : 4 * value;
+      changed.name = field.name;
+      scenes.push_back(changed);
+    }
+  });
+  return scenes;
+}
+
+// A force that the reference computes and the limit of the step knows nothing of would make the
+// limit too large: row sums are never above the spectrum's, whichever coefficient is raised.
+TEST(StepLimits, KnowEveryForce) {
+  const core::Body body = disc_body(19);
+  for (const core::Scene& scene : every_coefficient(core::Scene{})) {
+    for (const auto& [method, reference] :
+         {std::pair{core::Method::symplectic_euler, ReferenceMethod::symplectic_euler},
+          std::pair{core::Method::drift_kick_drift, ReferenceMethod::drift_kick_drift}}) {
+      const double limit = core::linear_step_limit(body, scene, scene.damping, reference);
+      const core::StepLimit found = core::step_limit(body, scene, scene.damping, method);
+      EXPECT_LE(found.safe, limit * (1 + 1e-6)) << scene.name;
+      EXPECT_TRUE(within(found.sharp / limit - 1, 0.03)) << scene.name;
+    }
+  }
 }
 
 // A triangle without pressure and damping breathes with w^2 = 3 k / m (all three springs stretched

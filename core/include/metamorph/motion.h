@@ -1,19 +1,26 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
 #include "metamorph/body.h"
+#include "metamorph/named.h"
 #include "metamorph/scene.h"
 
 namespace metamorph::core {
 
 /// Of the arithmetic.
 enum class Precision { float32, float64 };
+inline constexpr std::array<Named<Precision>, 2> precision_names{
+    {{Precision::float32, "float32"}, {Precision::float64, "float64"}}};
 
 /// drift_kick_drift: leapfrog, the velocity force at the extrapolated midpoint (default).
 /// symplectic_euler: first order, the baseline.
 enum class Method { drift_kick_drift, symplectic_euler };
+inline constexpr std::array<Named<Method>, 2> method_names{
+    {{Method::drift_kick_drift, "drift_kick_drift"},
+     {Method::symplectic_euler, "symplectic_euler"}}};
 
 /// How motion is computed; the steps belong to the scene.
 struct LocomotionOptions {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <string>
+
+#include "metamorph/named.h"
 
 namespace metamorph::core {
 
@@ -14,10 +17,14 @@ enum class DistanceRule {
   horizontal,  ///< |dx|: flat land
   rightward,   ///< max(0, dx): the slope experiment
 };
+inline constexpr std::array<Named<DistanceRule>, 3> distance_rule_names{
+    {{DistanceRule::euclidean, "euclidean"},
+     {DistanceRule::horizontal, "horizontal"},
+     {DistanceRule::rightward, "rightward"}}};
 
 /// An environment as data: which terms act, and their coefficients. The step that runs is composed
 /// from exactly the terms that are on. Units: d = m = k = 1, time unit sqrt(m/k); one paper step is
-/// 0.2 time units.
+/// 0.2 time units. Every field but the name stands in scene_fields.h, too.
 struct Scene {
   std::string name = "water";
 
