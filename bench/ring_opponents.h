@@ -18,18 +18,19 @@ namespace metamorph::bench {
 template <class T>
 class HardwareGather {
  public:
-  explicit HardwareGather(const kernels::BodyView<T>& body) : body_(body) {}
+  HardwareGather(const kernels::BodyShape<T>& shape, kernels::BodyState<T>& state)
+      : shape_(shape), state_(state) {}
 
-  kernels::NodePack<T> own(int lane) const { return kernels::load(body_.now + lane); }
-  kernels::NodePack<T> neighbour(int slot) const { return at(body_.neighbour + slot); }
-  kernels::NodePack<T> edge_end(int slot) const { return at(body_.edge_other + slot); }
-  void put(int lane, const kernels::NodePack<T>& pack) { store(pack, body_.next + lane); }
-  void end_step() { std::swap(body_.now, body_.next); }
-  double x(int lane) const { return static_cast<double>(body_.now[lane].x); }
+  kernels::NodePack<T> own(int lane) const { return kernels::load(state_.now + lane); }
+  kernels::NodePack<T> neighbour(int slot) const { return at(shape_.neighbour + slot); }
+  kernels::NodePack<T> edge_end(int slot) const { return at(shape_.edge_other + slot); }
+  void put(int lane, const kernels::NodePack<T>& pack) { store(pack, state_.next + lane); }
+  void end_step() { std::swap(state_.now, state_.next); }
+  double x(int lane) const { return static_cast<double>(state_.now[lane].x); }
 
  private:
   kernels::NodePack<T> at(const std::uint32_t* offset) const {
-    const T* first = &body_.now->x;
+    const T* first = &state_.now->x;
     return {gather(first, offset), gather(first + 1, offset), gather(first + 2, offset),
             gather(first + 3, offset)};
   }
@@ -59,7 +60,8 @@ class HardwareGather {
 #endif
   }
 
-  kernels::BodyView<T> body_;
+  const kernels::BodyShape<T>& shape_;
+  kernels::BodyState<T>& state_;
 };
 
 /// State as four arrays instead of records.
@@ -92,73 +94,76 @@ struct StateArrays {
 template <class T>
 class Contiguous {
  public:
-  explicit Contiguous(const kernels::BodyView<T>& body) {
+  Contiguous(const kernels::BodyShape<T>& body, kernels::BodyState<T>& state) {
     constexpr int width = kernels::Lanes<T>::width;
     int slots = 0, edges = 0;
     for (int g = 0; g < body.groups; ++g) slots += body.ring_size[g] * width;
     for (int g = 0; g < body.outline_groups; ++g) edges += body.edge_size[g] * width;
-    for (int l = 0; l < body.groups * width; ++l) state_.push(body.now[l]);
+    for (int l = 0; l < body.groups * width; ++l) nodes_.push(state.now[l]);
     const auto copy = [&](const std::uint32_t* offsets, int count, StateArrays<T>& to) {
-      for (int i = 0; i < count; ++i) to.push(body.now[offsets[i] / kernels::record_offset<T>(1)]);
+      for (int i = 0; i < count; ++i) to.push(state.now[offsets[i] / kernels::record_offset<T>(1)]);
     };
     copy(body.neighbour, slots, neighbour_);
     copy(body.edge_other, edges, edge_end_);
   }
 
-  kernels::NodePack<T> own(int lane) const { return state_.load(lane); }
+  kernels::NodePack<T> own(int lane) const { return nodes_.load(lane); }
   kernels::NodePack<T> neighbour(int slot) const { return neighbour_.load(slot); }
   kernels::NodePack<T> edge_end(int slot) const { return edge_end_.load(slot); }
-  void put(int lane, const kernels::NodePack<T>& pack) { state_.store(lane, pack); }
+  void put(int lane, const kernels::NodePack<T>& pack) { nodes_.store(lane, pack); }
   void end_step() {}
-  double x(int lane) const { return static_cast<double>(state_.x[static_cast<std::size_t>(lane)]); }
+  double x(int lane) const { return static_cast<double>(nodes_.x[static_cast<std::size_t>(lane)]); }
 
  private:
-  StateArrays<T> state_, neighbour_, edge_end_;
+  StateArrays<T> nodes_, neighbour_, edge_end_;
 };
 
 /// The library's own way, driven as the others are.
 template <class T>
 class TransposedRecords {
  public:
-  explicit TransposedRecords(const kernels::BodyView<T>& body) : body_(body) {}
+  TransposedRecords(const kernels::BodyShape<T>& shape, kernels::BodyState<T>& state)
+      : shape_(shape), state_(state) {}
 
   kernels::NodePack<T> own(int lane) const { return records().own(lane); }
   kernels::NodePack<T> neighbour(int slot) const { return records().neighbour(slot); }
   kernels::NodePack<T> edge_end(int slot) const { return records().edge_end(slot); }
   void put(int lane, const kernels::NodePack<T>& pack) const { records().put(lane, pack); }
-  void end_step() { std::swap(body_.now, body_.next); }
-  double x(int lane) const { return static_cast<double>(body_.now[lane].x); }
+  void end_step() { std::swap(state_.now, state_.next); }
+  double x(int lane) const { return static_cast<double>(state_.now[lane].x); }
 
  private:
-  kernels::Records<T> records() const { return {body_}; }
-  kernels::BodyView<T> body_;
+  kernels::Records<T> records() const { return {shape_, state_}; }
+  const kernels::BodyShape<T>& shape_;
+  kernels::BodyState<T>& state_;
 };
 
 /// One animat in water, stepped with the given state.
-template <class T, template <class> class State>
+template <class T, template <class> class Nodes>
 class RingOpponent {
  public:
   RingOpponent(const core::Body& body, const core::Scene& scene)
       : task_{&body, &scene},
         batch_({&task_, 1}, true, 1),
-        view_(batch_.view(0, buffers_)),
-        state_(view_),
+        shape_(batch_.shape(0)),
+        state_(batch_.start(0, buffers_)),
+        nodes_(shape_, state_),
         coefficients_(core::coefficients_of<T>(scene, core::Method::drift_kick_drift)) {}
 
   void step(double /*time*/, double amplitude) {
-    const kernels::Phasor swing = kernels::phasor(view_.advance * count_);
+    const kernels::Phasor swing = kernels::phasor(shape_.advance * count_);
     coefficients_.amplitude = static_cast<T>(amplitude);
     coefficients_.swing_sine = static_cast<T>(amplitude * swing.sine);
     coefficients_.swing_cosine = static_cast<T>(amplitude * swing.cosine);
-    kernels::step_body<T, terms>(view_, coefficients_, count_++, seen_, state_);
-    state_.end_step();
+    kernels::step_body<T, terms>(shape_, state_, coefficients_, count_++, seen_, nodes_);
+    nodes_.end_step();
   }
   double mean_x() const {
     double sum = 0;
-    for (int l = 0; l < view_.nodes; ++l) {
-      sum += state_.x(l) - static_cast<double>(coefficients_.step / 2 * view_.vx[l]);
+    for (int l = 0; l < shape_.nodes; ++l) {
+      sum += nodes_.x(l) - static_cast<double>(coefficients_.step / 2 * state_.vx[l]);
     }
-    return sum / view_.nodes;
+    return sum / shape_.nodes;
   }
   int animats() const { return 1; }
 
@@ -167,9 +172,10 @@ class RingOpponent {
 
   core::LocomotionTask task_;
   core::BodyBatch<T> batch_;
-  core::BodyState<T> buffers_;
-  kernels::BodyView<T> view_;
-  State<T> state_;
+  core::StateBuffers<T> buffers_;
+  kernels::BodyShape<T> shape_;
+  kernels::BodyState<T> state_;
+  Nodes<T> nodes_;
   kernels::StepCoefficients<T> coefficients_;
   kernels::StepExtremes<T> seen_{};
   kernels::Turn<T> count_ = 0;

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "kernels/body_view.h"
+#include "kernels/body_shape.h"
 
 namespace metamorph::kernels {
 
@@ -52,13 +52,14 @@ inline Phasor phasor(std::uint64_t phase) {
   return {values[0], values[1]};
 }
 
-/// The oscillation sin(2 pi t / T + phi) of eq 3 at step n for the lanes at `base`.
+/// The oscillation sin(2 pi t / T + phi) of eq 3 at step n for one register of phases: at step 0,
+/// and the advance of one step.
 template <class T>
-inline Lanes<T> oscillation(const OscillatorView<T>& oscillator, int base, Turn<T> n) {
+inline Lanes<T> oscillation(const Turn<T>* start, const Turn<T>* per_step, Turn<T> n) {
   typedef Turn<T> Turns __attribute__((vector_size(register_bytes)));
-  const auto start = *reinterpret_cast<const Turns*>(oscillator.start + base);
-  const auto per_step = *reinterpret_cast<const Turns*>(oscillator.per_step + base);
-  return sine<T>(reinterpret_cast<typename LaneTypes<T>::Mask>(start + per_step * n));
+  const auto from = *reinterpret_cast<const Turns*>(start);
+  const auto advance = *reinterpret_cast<const Turns*>(per_step);
+  return sine<T>(reinterpret_cast<typename LaneTypes<T>::Mask>(from + advance * n));
 }
 
 }  // namespace metamorph::kernels

@@ -27,8 +27,8 @@ CORE_MAY_INCLUDE = {
 PUBLIC_OF_CORE = {
     "body": ("body", "status", "threads"),
     "development": ("development", "extraction", "network"),
-    "locomotion": ("automatic_step", "locomotion", "motion", "outcome", "scene", "stability",
-                   "step_refusal"),
+    "locomotion": ("automatic_step", "locomotion", "motion", "outcome", "outcome_fields",
+                   "scene", "stability", "step_refusal"),
     "reference": ("reference",),
 }
 TOP_LEVEL_FOLDERS = set(ROOMS)

@@ -49,24 +49,24 @@ struct BodyBatch<T>::Plan {
   std::vector<std::uint32_t> lane;  ///< node -> lane
   int outline_nodes = 0;
   double main_period;
-  std::vector<std::uint8_t> odd;  ///< [nodes] 1 if the oscillator has another period
+  std::vector<std::uint8_t> off_period;  ///< [nodes] 1 if the oscillator has another period
 
   explicit Plan(const Body& body)
       : rings(make_rings(body)), main_period(most_frequent(body.period)) {
     order.resize(at(body.node_count()));
     std::iota(order.begin(), order.end(), 0);
-    for (const double period : body.period) odd.push_back(period != main_period);
-    std::vector<std::uint8_t> odd_ring = odd;
+    for (const double period : body.period) off_period.push_back(period != main_period);
+    std::vector<std::uint8_t> off_ring = off_period;
     for (const auto& [a, b] : body.springs) {
-      odd_ring[at(a)] |= odd[at(b)];
-      odd_ring[at(b)] |= odd[at(a)];
+      off_ring[at(a)] |= off_period[at(b)];
+      off_ring[at(b)] |= off_period[at(a)];
     }
     // Outline nodes in front, then by ring size: lanes of a group have nearly equal work.
     std::sort(order.begin(), order.end(), [&](Index a, Index b) {
       const bool outer_a = rings.edges(a) > 0, outer_b = rings.edges(b) > 0;
       if (outer_a != outer_b) return outer_a;
       if (rings.size(a) != rings.size(b)) return rings.size(a) > rings.size(b);
-      if (odd_ring[at(a)] != odd_ring[at(b)]) return odd_ring[at(a)] < odd_ring[at(b)];
+      if (off_ring[at(a)] != off_ring[at(b)]) return off_ring[at(a)] < off_ring[at(b)];
       return a < b;
     });
     lane.resize(order.size());
@@ -126,32 +126,14 @@ BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, in
   }
   offset_.back() = total;
 
-  const std::size_t lanes = total.groups * width, slots = total.slots * width;
-  ring_begin_.resize(total.groups);
-  ring_size_.resize(total.groups);
-  ring_closed_.resize(total.groups);
-  odd_.resize(total.groups);
-  closing_area2_.assign(lanes, T(0));
-  edge_begin_.resize(total.edge_groups);
-  edge_size_.resize(total.edge_groups);
-  neighbour_.resize(slots);
-  rest_length_.assign(slots, T(1));
-  spring_.assign(slots, T(0));
-  rest_area2_.assign(slots, T(0));
-  ring_start_.resize(slots);
-  ring_per_step_.resize(slots);
-  swing_sine_.assign(slots, T(0));
-  swing_cosine_.assign(slots, T(0));
-  ring_odd_.assign(slots, T(0));
-  node_odd_.assign(lanes, T(0));
-  on_outline_.assign(total.edge_groups * width, T(0));
-  edge_other_.resize(total.edge_slots * width);
-  edge_present_.assign(total.edge_slots * width, T(0));
-  inverse_mass_.assign(lanes, T(0));
-  node_start_.resize(lanes);
-  node_per_step_.resize(lanes);
-  start_.assign(lanes, {});
-  node_of_lane_.assign(lanes, -1);
+  groups_.assign(total.groups);
+  lanes_.assign(total.groups * width);
+  slots_.assign(total.slots * width);
+  edge_groups_.assign(total.edge_groups);
+  edge_lanes_.assign(total.edge_groups * width);
+  edge_slots_.assign(total.edge_slots * width);
+  start_.assign(total.groups * width, {});
+  node_of_lane_.assign(total.groups * width, -1);
   outline_edges_.resize(total.outline_edges);
 
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
@@ -161,162 +143,168 @@ BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, in
   }
 }
 
+/// The oscillators of a body's nodes.
+template <class T>
+struct BodyBatch<T>::Oscillators {
+  std::vector<kernels::Turn<T>> start, per_step;
+  std::vector<kernels::Phasor> phasor;  ///< at the start; 0, 0 with another than the main period
+
+  Oscillators(const Body& body, const Plan& plan, double step, double first_time)
+      : start(body.x.size()), per_step(body.x.size()), phasor(body.x.size(), {0, 0}) {
+    for (std::size_t n = 0; n < start.size(); ++n) {
+      const double turns = first_time / body.period[n] + body.phase[n] / (2 * std::numbers::pi);
+      per_step[n] = fixed_turn<T>(step / body.period[n]);
+      start[n] = fixed_turn<T>(turns);
+      if (plan.off_period[n] == 0) phasor[n] = kernels::phasor(fixed_turn<double>(turns));
+    }
+  }
+};
+
 template <class T>
 void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& plan,
                         bool midpoint) {
   const Body& body = *task.body;
   const Scene& scene = *task.scene;
-  const Extent& extent = extent_[i];
-  const Offset& offset = offset_[i];
-  const auto nodes = static_cast<std::size_t>(extent.nodes);
   const auto [left, right] = std::minmax_element(body.x.begin(), body.x.end());
   const auto [low, high] = std::minmax_element(body.y.begin(), body.y.end());
   const double middle_x = (*left + *right) / 2;
   const double level = scene.ground ? *low : (*low + *high) / 2;
   origin_[i] = {middle_x, level};
-  const double first_time = midpoint ? scene.step / 2 : 0;
-
-  std::vector<kernels::Turn<T>> start(nodes), per_step(nodes);
-  std::vector<kernels::Phasor> phasor(nodes, {0, 0});
-  for (std::size_t n = 0; n < nodes; ++n) {
-    const double turns = first_time / body.period[n] + body.phase[n] / (2 * std::numbers::pi);
-    per_step[n] = fixed_turn<T>(scene.step / body.period[n]);
-    start[n] = fixed_turn<T>(turns);
-    if (plan.odd[n] == 0) phasor[n] = kernels::phasor(fixed_turn<double>(turns));
+  for (std::size_t lane = 0; lane < plan.order.size(); ++lane) {
+    const std::size_t here = offset_[i].groups * width + lane, node = at(plan.order[lane]);
+    node_of_lane_[here] = plan.order[lane];
+    start_[here] = {static_cast<T>(body.x[node] - middle_x), static_cast<T>(body.y[node] - level),
+                    T(0), T(0)};
   }
+
   advance_[i] = fixed_turn<double>(scene.step / plan.main_period);
-
-  const auto pressed_area2 = [&](Index triangle) {
-    const double area = triangle >= 0 ? body.rest_area[at(triangle)] : 0;
-    return area < scene.min_pressure_area ? T(0) : static_cast<T>(2 * area);
-  };
-
-  int slot = 0;
-  for (int g = 0; g < extent.groups; ++g) {
-    const std::size_t group = offset.groups + at(g);
-    ring_begin_[group] = slot;
-    ring_size_[group] = plan.group_max(g, &Rings::size);
-    for (int l = 0; l < width; ++l) {
-      const auto lane = static_cast<std::uint32_t>(g * width + l);
-      const std::size_t here = (offset.groups * width) + lane;
-      const bool real = lane < nodes;
-      const auto node = real ? at(plan.order[lane]) : 0;
-      if (real) {
-        node_of_lane_[here] = plan.order[lane];
-        inverse_mass_[here] = T(1);
-        node_odd_[here] = T(plan.odd[node]);
-        node_start_[here] = start[node];
-        node_per_step_[here] = per_step[node];
-        start_[here] = {static_cast<T>(body.x[node] - middle_x),
-                        static_cast<T>(body.y[node] - level), T(0), T(0)};
-      }
-      const int size = real ? plan.rings.size(plan.order[lane]) : 0;
-      if (real && plan.rings.closing[node] >= 0) {
-        ring_closed_[group] = 1;
-        closing_area2_[here] = pressed_area2(plan.rings.closing[node]);
-      }
-      for (int k = 0; k < ring_size_[group]; ++k) {
-        const std::size_t place = (offset.slots + at(slot + k)) * width + at(l);
-        if (k >= size) {
-          // Beyond the ring its last neighbour again, without spring: the vector before stays.
-          neighbour_[place] = k > 0 ? neighbour_[place - width] : kernels::record_offset<T>(lane);
-          continue;
-        }
-        const RingSlot& ring = plan.rings.slots[at(plan.rings.begin[node] + k)];
-        neighbour_[place] = kernels::record_offset<T>(plan.lane[at(ring.neighbour)]);
-        ring_start_[place] = start[at(ring.neighbour)];
-        ring_per_step_[place] = per_step[at(ring.neighbour)];
-        const double rest_length = body.rest_length[at(ring.spring)];
-        const kernels::Phasor &own = phasor[node], &other = phasor[at(ring.neighbour)];
-        ring_odd_[place] = T(plan.odd[at(ring.neighbour)]);
-        if (plan.odd[node] + plan.odd[at(ring.neighbour)] > 0) odd_[group] = 1;
-        spring_[place] = T(1);
-        rest_length_[place] = static_cast<T>(rest_length);
-        swing_sine_[place] = static_cast<T>(rest_length * (own.cosine + other.cosine));
-        swing_cosine_[place] = static_cast<T>(rest_length * (own.sine + other.sine));
-        rest_area2_[place] = pressed_area2(ring.triangle);
-      }
-    }
-    slot += ring_size_[group];
-  }
-
-  int edge_slot = 0;
-  for (int g = 0; g < extent.outline_groups; ++g) {
-    const std::size_t group = offset.edge_groups + at(g);
-    edge_begin_[group] = edge_slot;
-    edge_size_[group] = plan.group_max(g, &Rings::inner_edges);
-    for (int l = 0; l < width; ++l) {
-      const auto lane = static_cast<std::uint32_t>(g * width + l);
-      const Index node = lane < nodes ? plan.order[lane] : -1;
-      if (node >= 0 && plan.rings.edges(node) > 0) on_outline_[group * width + at(l)] = T(1);
-      const int size = node >= 0 ? plan.rings.inner_edges(node) : 0;
-      for (int e = 0; e < edge_size_[group]; ++e) {
-        const std::size_t place = (offset.edge_slots + at(edge_slot + e)) * width + at(l);
-        edge_other_[place] = kernels::record_offset<T>(lane);
-        if (e < size) {
-          edge_other_[place] = kernels::record_offset<T>(
-              plan.lane[at(plan.rings.edge_other[at(plan.rings.edge_begin[at(node)] + 1 + e)])]);
-          edge_present_[place] = T(1);
-        }
-      }
-    }
-    edge_slot += edge_size_[group];
-  }
-
+  fill_rings(i, task, plan, {body, plan, scene.step, midpoint ? scene.step / 2 : 0});
+  fill_edges(i, plan);
   const auto outline = outline_of(body.triangles);
   for (std::size_t e = 0; e < outline.size(); ++e) {
-    outline_edges_[offset.outline_edges + e] = {plan.lane[at(outline[e][0])],
-                                                plan.lane[at(outline[e][1])]};
+    outline_edges_[offset_[i].outline_edges + e] = {plan.lane[at(outline[e][0])],
+                                                    plan.lane[at(outline[e][1])]};
   }
 }
 
 template <class T>
-kernels::BodyView<T> BodyBatch<T>::view(std::size_t i, BodyState<T>& state) const {
+void BodyBatch<T>::fill_rings(std::size_t i, const LocomotionTask& task, const Plan& plan,
+                              const Oscillators& oscillators) {
+  const Body& body = *task.body;
+  const auto pressed_area2 = [&](Index triangle) {
+    const double area = triangle >= 0 ? body.rest_area[at(triangle)] : 0;
+    return area < task.scene->min_pressure_area ? T(0) : static_cast<T>(2 * area);
+  };
+  const auto slot_of = [&](std::size_t node, const RingSlot& ring) {
+    const std::size_t other = at(ring.neighbour);
+    const double rest_length = body.rest_length[at(ring.spring)];
+    const kernels::Phasor &own = oscillators.phasor[node], &others = oscillators.phasor[other];
+    return ShapeSlot<T>{.neighbour = kernels::record_offset<T>(plan.lane[other]),
+                        .rest_length = static_cast<T>(rest_length),
+                        .spring = 1,
+                        .rest_area2 = pressed_area2(ring.triangle),
+                        .swing_sine = static_cast<T>(rest_length * (own.cosine + others.cosine)),
+                        .swing_cosine = static_cast<T>(rest_length * (own.sine + others.sine)),
+                        .off_period = T(plan.off_period[other]),
+                        .start = oscillators.start[other],
+                        .per_step = oscillators.per_step[other]};
+  };
+
+  int first_slot = 0;
+  for (int g = 0; g < extent_[i].groups; ++g) {
+    ShapeGroup<T> group{.ring_begin = first_slot, .ring_size = plan.group_max(g, &Rings::size)};
+    for (int l = 0; l < width; ++l) {
+      const auto lane = static_cast<std::uint32_t>(g * width + l);
+      ShapeLane<T> own;
+      ShapeSlot<T> beyond{.neighbour = kernels::record_offset<T>(lane)};
+      int size = 0;
+      const auto place = [&](int slot) {
+        return (offset_[i].slots + at(first_slot + slot)) * width + at(l);
+      };
+      if (lane < plan.order.size()) {
+        const std::size_t node = at(plan.order[lane]);
+        const Index closing = plan.rings.closing[node];
+        own = {.inverse_mass = 1,
+               .closing_area2 = closing >= 0 ? pressed_area2(closing) : 0,
+               .off_period = T(plan.off_period[node]),
+               .start = oscillators.start[node],
+               .per_step = oscillators.per_step[node]};
+        if (closing >= 0) group.ring_closed = 1;
+        size = plan.rings.size(plan.order[lane]);
+        for (int k = 0; k < size; ++k) {
+          const RingSlot& ring = plan.rings.slots[at(plan.rings.begin[node] + k)];
+          const ShapeSlot<T> slot = slot_of(node, ring);
+          slots_.put(place(k), slot);
+          beyond.neighbour = slot.neighbour;
+          if (plan.off_period[node] + plan.off_period[at(ring.neighbour)] > 0) group.off_period = 1;
+        }
+      }
+      lanes_.put(offset_[i].groups * width + lane, own);
+      // Beyond the ring its last neighbour again, without spring: the vector before stays.
+      for (int k = size; k < group.ring_size; ++k) slots_.put(place(k), beyond);
+    }
+    groups_.put(offset_[i].groups + at(g), group);
+    first_slot += group.ring_size;
+  }
+}
+
+template <class T>
+void BodyBatch<T>::fill_edges(std::size_t i, const Plan& plan) {
+  const Rings& rings = plan.rings;
+  int first_slot = 0;
+  for (int g = 0; g < extent_[i].outline_groups; ++g) {
+    const ShapeEdgeGroup<T> group{first_slot, plan.group_max(g, &Rings::inner_edges)};
+    const std::size_t here = offset_[i].edge_groups + at(g);
+    edge_groups_.put(here, group);
+    for (int l = 0; l < width; ++l) {
+      const auto lane = static_cast<std::uint32_t>(g * width + l);
+      const Index node = lane < plan.order.size() ? plan.order[lane] : -1;
+      if (node >= 0 && rings.edges(node) > 0) edge_lanes_.put(here * width + at(l), {1});
+      const int size = node >= 0 ? rings.inner_edges(node) : 0;
+      for (int e = 0; e < group.edge_size; ++e) {
+        ShapeEdgeSlot<T> slot{kernels::record_offset<T>(lane), 0};
+        if (e < size) {
+          const Index other = rings.edge_other[at(rings.edge_begin[at(node)] + 1 + e)];
+          slot = {kernels::record_offset<T>(plan.lane[at(other)]), 1};
+        }
+        edge_slots_.put((offset_[i].edge_slots + at(first_slot + e)) * width + at(l), slot);
+      }
+    }
+    first_slot += group.edge_size;
+  }
+}
+
+template <class T>
+kernels::BodyShape<T> BodyBatch<T>::shape(std::size_t i) const {
   const Extent& extent = extent_[i];
   const Offset& offset = offset_[i];
-  const std::size_t lanes = offset.groups * width, slots = offset.slots * width;
-  kernels::BodyView<T> view;
-  view.nodes = extent.nodes;
-  view.groups = extent.groups;
-  view.outline_groups = extent.outline_groups;
-  view.odd = odd_.data() + offset.groups;
-  view.ring_begin = ring_begin_.data() + offset.groups;
-  view.ring_size = ring_size_.data() + offset.groups;
-  view.ring_closed = ring_closed_.data() + offset.groups;
-  view.closing_area2 = closing_area2_.data() + lanes;
-  view.neighbour = neighbour_.data() + slots;
-  view.rest_length = rest_length_.data() + slots;
-  view.spring = spring_.data() + slots;
-  view.rest_area2 = rest_area2_.data() + slots;
-  view.ring_oscillator = {ring_start_.data() + slots, ring_per_step_.data() + slots};
-  view.swing_sine = swing_sine_.data() + slots;
-  view.swing_cosine = swing_cosine_.data() + slots;
-  view.mixed_periods =
-      std::any_of(view.odd, view.odd + extent.groups, [](int odd) { return odd != 0; });
-  view.advance = advance_[i];
-  view.ring_odd = ring_odd_.data() + slots;
-  view.node_odd = node_odd_.data() + lanes;
-  view.node_oscillator = {node_start_.data() + lanes, node_per_step_.data() + lanes};
-  view.inverse_mass = inverse_mass_.data() + lanes;
-  view.edge_begin = edge_begin_.data() + offset.edge_groups;
-  view.edge_size = edge_size_.data() + offset.edge_groups;
-  view.on_outline = on_outline_.data() + offset.edge_groups * width;
-  view.edge_other = edge_other_.data() + offset.edge_slots * width;
-  view.edge_present = edge_present_.data() + offset.edge_slots * width;
-  const std::size_t own = at(extent.groups) * width;
-  const auto start = start_.begin() + static_cast<std::ptrdiff_t>(lanes);
-  state.now.assign(start, start + static_cast<std::ptrdiff_t>(own));
-  state.next.assign(own, {});
-  for (auto* values : {&state.vx, &state.vy, &state.extra_fx, &state.extra_fy}) {
-    values->assign(own, T(0));
+  kernels::BodyShape<T> shape;
+  shape.nodes = extent.nodes;
+  shape.groups = extent.groups;
+  shape.outline_groups = extent.outline_groups;
+  groups_.show(offset.groups, shape);
+  lanes_.show(offset.groups * width, shape);
+  slots_.show(offset.slots * width, shape);
+  edge_groups_.show(offset.edge_groups, shape);
+  edge_lanes_.show(offset.edge_groups * width, shape);
+  edge_slots_.show(offset.edge_slots * width, shape);
+  shape.mixed_periods = std::any_of(shape.off_period, shape.off_period + extent.groups,
+                                    [](int off_period) { return off_period != 0; });
+  shape.advance = advance_[i];
+  return shape;
+}
+
+template <class T>
+kernels::BodyState<T> BodyBatch<T>::start(std::size_t i, StateBuffers<T>& buffers) const {
+  const std::size_t lanes = at(extent_[i].groups) * width;
+  const auto start = start_.begin() + static_cast<std::ptrdiff_t>(offset_[i].groups * width);
+  buffers.now.assign(start, start + static_cast<std::ptrdiff_t>(lanes));
+  buffers.next.assign(lanes, {});
+  for (auto* values : {&buffers.vx, &buffers.vy, &buffers.extra_fx, &buffers.extra_fy}) {
+    values->assign(lanes, T(0));
   }
-  view.now = state.now.data();
-  view.next = state.next.data();
-  view.vx = state.vx.data();
-  view.vy = state.vy.data();
-  view.extra_fx = state.extra_fx.data();
-  view.extra_fy = state.extra_fy.data();
-  return view;
+  return {buffers.now.data(), buffers.next.data(),     buffers.vx.data(),
+          buffers.vy.data(),  buffers.extra_fx.data(), buffers.extra_fy.data()};
 }
 
 template <class T>

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/body/aligned.h"
+#include "core/locomotion/shape_columns.h"
 #include "kernels/body_step.h"
 #include "kernels/self_collision.h"
 #include "metamorph/body.h"
@@ -14,10 +15,10 @@
 
 namespace metamorph::core {
 
-/// The state of one running animat, see BodyView. Each thread has its own: lines of the cache that
+/// Storage for the state of one running animat. Each thread has its own: lines of the cache that
 /// one writes in every step are nobody else's, nor next to another's.
 template <class T>
-struct BodyState {
+struct StateBuffers {
   Aligned<kernels::NodeRecord<T>> now, next;
   Aligned<T> vx, vy, extra_fx, extra_fy;
 };
@@ -34,8 +35,11 @@ class BodyBatch {
   /// `midpoint`: forces are taken half a step later than the step's start (drift-kick-drift).
   BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, int threads);
 
-  /// The kernels' view of body `i`, with the state in `state`: at rest in its starting position.
-  kernels::BodyView<T> view(std::size_t i, BodyState<T>& state) const;
+  /// What is constant of body `i`, as the kernels see it.
+  kernels::BodyShape<T> shape(std::size_t i) const;
+
+  /// Puts body `i` at rest in its starting position; the state is valid as long as `buffers`.
+  kernels::BodyState<T> start(std::size_t i, StateBuffers<T>& buffers) const;
 
   /// What was taken from the positions of body `i`: it starts about x = 0, with its lowest node at
   /// y = 0 on the ground, else about y = 0, so that rounding does not depend on where it lies.
@@ -57,22 +61,26 @@ class BodyBatch {
     std::size_t groups, slots, edge_groups, edge_slots, outline_edges;
   };
   struct Plan;
+  struct Oscillators;
 
   void fill(std::size_t i, const LocomotionTask& task, const Plan& plan, bool midpoint);
+  void fill_rings(std::size_t i, const LocomotionTask& task, const Plan& plan,
+                  const Oscillators& oscillators);
+  void fill_edges(std::size_t i, const Plan& plan);
 
   std::vector<Extent> extent_;
   std::vector<Offset> offset_;
-  std::vector<std::uint64_t> advance_;  ///< of each body's main period in a step, see BodyView
+  std::vector<std::uint64_t> advance_;  ///< of each body's main period in a step, see BodyShape
   std::vector<std::array<double, 2>> origin_;
 
-  // [groups of all bodies], [slots], ... each entry `width` wide where lanes are concerned.
-  std::vector<int> ring_begin_, ring_size_, ring_closed_, odd_, edge_begin_, edge_size_;
-  Aligned<std::uint32_t> neighbour_, edge_other_;
-  Aligned<T> rest_length_, spring_, rest_area2_, closing_area2_, inverse_mass_, on_outline_,
-      edge_present_;
-  Aligned<kernels::Turn<T>> ring_start_, ring_per_step_, node_start_, node_per_step_;
-  Aligned<T> swing_sine_, swing_cosine_, ring_odd_, node_odd_;
-  Aligned<kernels::NodeRecord<T>> start_;
+  // Of all bodies one behind the other.
+  Columns<ShapeGroup<T>> groups_;
+  Columns<ShapeLane<T>> lanes_;
+  Columns<ShapeSlot<T>> slots_;
+  Columns<ShapeEdgeGroup<T>> edge_groups_;
+  Columns<ShapeEdgeLane<T>> edge_lanes_;
+  Columns<ShapeEdgeSlot<T>> edge_slots_;
+  Aligned<kernels::NodeRecord<T>> start_;  ///< [lanes]
   std::vector<Index> node_of_lane_;
   std::vector<std::array<std::uint32_t, 2>> outline_edges_;
 };

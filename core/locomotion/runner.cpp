@@ -23,8 +23,9 @@ std::int64_t steps_of(int paper_steps, double step) {
 
 /// Every composition of terms, made once; picked by its number.
 template <class T>
-using StepFunction = void (*)(const kernels::BodyView<T>&, const kernels::StepCoefficients<T>&,
-                              kernels::Turn<T>, kernels::StepExtremes<T>&);
+using StepFunction = void (*)(const kernels::BodyShape<T>&, kernels::BodyState<T>&,
+                              const kernels::StepCoefficients<T>&, kernels::Turn<T>,
+                              kernels::StepExtremes<T>&);
 
 template <class T, unsigned... numbers>
 constexpr auto step_table(std::integer_sequence<unsigned, numbers...>) {
@@ -47,7 +48,8 @@ void Runner<T>::run(std::size_t i, const LocomotionTask& task, Outcome& outcome,
   body_ = task.body;
   scene_ = task.scene;
   index_ = i;
-  view_ = batch_.view(i, state_);
+  shape_ = batch_.shape(i);
+  state_ = batch_.start(i, buffers_);
   coefficients_ = coefficients_of<T>(*scene_, method_);
   step_ = scene_->step;
   extremes_ = {};
@@ -65,13 +67,13 @@ template <class T>
 void Runner<T>::step(std::uint64_t n) {
   kernels::Terms terms = terms_of(*scene_, actuation_);
   if (scene_->self_collision) {
-    auto &fx = state_.extra_fx, &fy = state_.extra_fy;
+    auto &fx = buffers_.extra_fx, &fy = buffers_.extra_fy;
     if (touched_) {
       const auto lanes = static_cast<std::ptrdiff_t>(kernels::lane_index<T>(collisions_.groups()));
       std::fill(fx.begin(), fx.begin() + lanes, T(0));
       std::fill(fy.begin(), fy.begin() + lanes, T(0));
     }
-    pairs_ = collisions_.pairs(view_.now, view_.inverse_mass);
+    pairs_ = collisions_.pairs(state_.now, shape_.inverse_mass);
     // Speeds change little in a few steps: hardly ever has to be looked again.
     if (n % speed_interval == 0) expect_speed(std::sqrt(largest(fastest2_)));
     const kernels::PairCounts found =
@@ -82,11 +84,12 @@ void Runner<T>::step(std::uint64_t n) {
   }
   const auto before = extremes_.largest_speed2;
   extremes_.largest_speed2 = kernels::Lanes<T>(T(0));
-  step_function<T>(terms)(view_, coefficients_, static_cast<kernels::Turn<T>>(n), extremes_);
+  step_function<T>(terms)(shape_, state_, coefficients_, static_cast<kernels::Turn<T>>(n),
+                          extremes_);
   fastest2_ = extremes_.largest_speed2;
   if (scene_->self_collision && stop()) fastest2_ = speeds2();
   extremes_.largest_speed2 = kernels::max(fastest2_, before);
-  std::swap(view_.now, view_.next);
+  std::swap(state_.now, state_.next);
 }
 
 /// Sets how near pairs must be to be looked at, for speeds up to somewhat more than this.
@@ -99,7 +102,7 @@ void Runner<T>::expect_speed(T speed) {
 /// Finds the pairs within `reach_`, and adds their penalty.
 template <class T>
 kernels::PairCounts Runner<T>::meet(T stiffness, T* fx, T* fy) {
-  return kernels::meet_pairs(pairs_, view_.now, stiffness,
+  return kernels::meet_pairs(pairs_, state_.now, stiffness,
                              static_cast<T>(scene_->collision_least_gap), reach_, fx, fy,
                              collisions_.approaches());
 }
@@ -116,18 +119,18 @@ bool Runner<T>::stop() {
   for (int round = 0; round < most_rounds; ++round) {
     // What was pushed may be faster than all before, or elsewhere: then more may be near.
     collisions_.advance(moved2, coefficients_.step);
-    const bool held = collisions_.held(view_.now, view_.next, view_.inverse_mass);
+    const bool held = collisions_.held(state_.now, state_.next, shape_.inverse_mass);
     const bool expected = kernels::all(speed2 < Pack(expected_ * expected_));
-    if (!held) pairs_ = collisions_.pairs(view_.now, view_.inverse_mass);
+    if (!held) pairs_ = collisions_.pairs(state_.now, shape_.inverse_mass);
     if (!expected) expect_speed(std::sqrt(largest(speed2)));
     if (!held || !expected) {
-      near_ = meet(T(0), state_.extra_fx.data(), state_.extra_fy.data()).near;
+      near_ = meet(T(0), buffers_.extra_fx.data(), buffers_.extra_fy.data()).near;
     } else if (round > 0) {
       return true;
     }
     const kernels::Approach<T>* const begin = collisions_.approaches();
     const kernels::Stopped<T> stopped = kernels::stop_approaches(
-        begin, begin + near_, stop_step, view_.now, view_.next, view_.vx, view_.vy);
+        begin, begin + near_, stop_step, state_.now, state_.next, state_.vx, state_.vy);
     if (!stopped.any) return round > 0;
     speed2 = Pack(stopped.fastest2);
     moved2 = Pack(stopped.change * stopped.change);
@@ -140,8 +143,8 @@ template <class T>
 kernels::Lanes<T> Runner<T>::speeds2() const {
   using Pack = kernels::Lanes<T>;
   Pack largest2(T(0));
-  for (int base = 0; base < view_.groups * Pack::width; base += Pack::width) {
-    const Pack vx = Pack::load(view_.vx + base), vy = Pack::load(view_.vy + base);
+  for (int base = 0; base < shape_.groups * Pack::width; base += Pack::width) {
+    const Pack vx = Pack::load(state_.vx + base), vy = Pack::load(state_.vy + base);
     largest2 = max(fma(vx, vx, vy * vy), largest2);
   }
   return largest2;
@@ -189,14 +192,14 @@ template <class T>
 void Runner<T>::end_settling() {
   step_ = scene_->step;
   coefficients_ = coefficients_of<T>(*scene_, method_);
-  for (int l = 0; l < view_.nodes; ++l) {
-    kernels::NodeRecord<T>& record = view_.now[l];
+  for (int l = 0; l < shape_.nodes; ++l) {
+    kernels::NodeRecord<T>& record = state_.now[l];
     if (scene_->ground && coefficients_.extrapolate > 0) {  // which holds in half a step as well
       const T least = -std::max(record.y, T(0)) / coefficients_.extrapolate;
-      record.vy = view_.vy[l] = std::max(view_.vy[l], least);
+      record.vy = state_.vy[l] = std::max(state_.vy[l], least);
     }
-    record.x = std::fma(coefficients_.extrapolate, view_.vx[l], record.x);
-    record.y = std::fma(coefficients_.extrapolate, view_.vy[l], record.y);
+    record.x = std::fma(coefficients_.extrapolate, state_.vx[l], record.x);
+    record.y = std::fma(coefficients_.extrapolate, state_.vy[l], record.y);
   }
   if (scene_->self_collision) collisions_.advance(fastest2_, coefficients_.extrapolate);
 }
@@ -206,7 +209,7 @@ void Runner<T>::actuate(Outcome& outcome, int every,
                         const std::function<void(const Frame&)>& observe) {
   const Scene& scene = *scene_;
   actuation_ =
-      view_.mixed_periods ? kernels::Actuation::mixed_periods : kernels::Actuation::one_period;
+      shape_.mixed_periods ? kernels::Actuation::mixed_periods : kernels::Actuation::one_period;
   const Mean start = mean_position();
   const std::int64_t count = steps_of(scene.run_steps, scene.step);
   const double ramp = scene.ramp_steps * paper_step;
@@ -217,7 +220,7 @@ void Runner<T>::actuate(Outcome& outcome, int every,
     const double t = (static_cast<double>(n) + offset) * scene.step;
     const double amplitude = scene.amplitude * (t < ramp ? t / ramp : 1.0);
     const auto count_from_start = static_cast<std::uint64_t>(n);
-    const kernels::Phasor swing = kernels::phasor(view_.advance * count_from_start);
+    const kernels::Phasor swing = kernels::phasor(shape_.advance * count_from_start);
     coefficients_.amplitude = static_cast<T>(amplitude);
     coefficients_.swing_sine = static_cast<T>(amplitude * swing.sine);
     coefficients_.swing_cosine = static_cast<T>(amplitude * swing.cosine);
@@ -238,37 +241,37 @@ void Runner<T>::actuate(Outcome& outcome, int every,
 // A record holds x_n + h/2 v_n with drift-kick-drift, x_n with symplectic Euler.
 template <class T>
 double Runner<T>::position_x(int lane) const {
-  return static_cast<double>(view_.now[lane].x) -
-         static_cast<double>(coefficients_.extrapolate) * static_cast<double>(view_.vx[lane]);
+  return static_cast<double>(state_.now[lane].x) -
+         static_cast<double>(coefficients_.extrapolate) * static_cast<double>(state_.vx[lane]);
 }
 
 template <class T>
 double Runner<T>::position_y(int lane) const {
-  return static_cast<double>(view_.now[lane].y) -
-         static_cast<double>(coefficients_.extrapolate) * static_cast<double>(view_.vy[lane]);
+  return static_cast<double>(state_.now[lane].y) -
+         static_cast<double>(coefficients_.extrapolate) * static_cast<double>(state_.vy[lane]);
 }
 
 template <class T>
 typename Runner<T>::Mean Runner<T>::mean_position() const {
   double x = 0, y = 0;
-  for (int l = 0; l < view_.nodes; ++l) {
+  for (int l = 0; l < shape_.nodes; ++l) {
     x += position_x(l);
     y += position_y(l);
   }
-  return {x / view_.nodes, y / view_.nodes};
+  return {x / shape_.nodes, y / shape_.nodes};
 }
 
 template <class T>
 void Runner<T>::show(const std::function<void(const Frame&)>& observe, std::int64_t step_index) {
   const auto lanes = batch_.node_of_lane(index_);
   const std::array<double, 2> origin = batch_.origin(index_);
-  for (auto& values : frame_) values.resize(static_cast<std::size_t>(view_.nodes));
-  for (int l = 0; l < view_.nodes; ++l) {
+  for (auto& values : frame_) values.resize(static_cast<std::size_t>(shape_.nodes));
+  for (int l = 0; l < shape_.nodes; ++l) {
     const auto node = static_cast<std::size_t>(lanes[static_cast<std::size_t>(l)]);
     frame_[0][node] = position_x(l) + origin[0];
     frame_[1][node] = position_y(l) + (scene_->ground ? 0 : origin[1]);
-    frame_[2][node] = static_cast<double>(view_.vx[l]);
-    frame_[3][node] = static_cast<double>(view_.vy[l]);
+    frame_[2][node] = static_cast<double>(state_.vx[l]);
+    frame_[3][node] = static_cast<double>(state_.vy[l]);
   }
   observe({step_index, static_cast<double>(step_index) * scene_->step, frame_[0], frame_[1],
            frame_[2], frame_[3]});

@@ -54,8 +54,9 @@ class Runner {
   const Body* body_ = nullptr;
   const Scene* scene_ = nullptr;
   std::size_t index_ = 0;
-  BodyState<T> state_;
-  kernels::BodyView<T> view_{};
+  kernels::BodyShape<T> shape_{};
+  StateBuffers<T> buffers_;
+  kernels::BodyState<T> state_{};  ///< in those
   kernels::StepCoefficients<T> coefficients_{};
   kernels::StepExtremes<T> extremes_{};
   kernels::Actuation actuation_ = kernels::Actuation::none;  ///< of the phase it is in

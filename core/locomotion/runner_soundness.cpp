@@ -89,7 +89,7 @@ void Runner<T>::locate_failure(Outcome& outcome) const {
   double fastest = -1;
   for (std::size_t l = 0; l < lanes.size(); ++l) {
     if (lanes[l] < 0) continue;
-    const double vx = static_cast<double>(view_.vx[l]), vy = static_cast<double>(view_.vy[l]);
+    const double vx = static_cast<double>(state_.vx[l]), vy = static_cast<double>(state_.vy[l]);
     const double speed2 = vx * vx + vy * vy;
     if (!std::isfinite(speed2)) {
       outcome.failed_index = lanes[l];
@@ -107,9 +107,9 @@ void Runner<T>::locate_failure(Outcome& outcome) const {
 template <class T>
 double Runner<T>::area(std::size_t triangle) const {
   const auto& [a, b, c] = body_->triangles[triangle];
-  const auto& p = view_.now[lane_of_[static_cast<std::size_t>(a)]];
-  const auto& q = view_.now[lane_of_[static_cast<std::size_t>(b)]];
-  const auto& r = view_.now[lane_of_[static_cast<std::size_t>(c)]];
+  const auto& p = state_.now[lane_of_[static_cast<std::size_t>(a)]];
+  const auto& q = state_.now[lane_of_[static_cast<std::size_t>(b)]];
+  const auto& r = state_.now[lane_of_[static_cast<std::size_t>(c)]];
   return 0.5 * (double(q.x - p.x) * double(r.y - p.y) - double(r.x - p.x) * double(q.y - p.y));
 }
 
@@ -134,7 +134,7 @@ template <class T>
 void Runner<T>::find_crossing(Outcome& outcome) {
   const auto edges = batch_.outline_edges(index_);
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto &a = view_.now[edges[e][0]], &b = view_.now[edges[e][1]];
+    const auto &a = state_.now[edges[e][0]], &b = state_.now[edges[e][1]];
     look_[2][e] = a.x;
     look_[3][e] = a.y;
     look_[4][e] = b.x;
@@ -147,8 +147,8 @@ void Runner<T>::find_crossing(Outcome& outcome) {
   }
   std::vector<double> x(body_->x.size()), y(body_->x.size());
   for (std::size_t n = 0; n < x.size(); ++n) {
-    x[n] = static_cast<double>(view_.now[lane_of_[n]].x);
-    y[n] = static_cast<double>(view_.now[lane_of_[n]].y);
+    x[n] = static_cast<double>(state_.now[lane_of_[n]].x);
+    y[n] = static_cast<double>(state_.now[lane_of_[n]].y);
   }
   const std::optional<CrossedEdge> crossed = crossed_edge(*body_, x, y);
   if (!crossed) return;

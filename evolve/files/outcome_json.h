@@ -8,9 +8,8 @@
 
 namespace metamorph::evolve {
 
-/// One outcome as a JSON object on one line: first `labels` (key and string), then the fields of
-/// core::Outcome by their names; of a failure also `failed_step`, `failed_index`, `failed_value`.
-/// A number that is not finite becomes null.
+/// One outcome as a JSON object on one line: first `labels` (key and string), then those
+/// of core::outcome_fields that apply, by their names. A number that is not finite becomes null.
 std::string outcome_json(const std::vector<std::pair<std::string, std::string>>& labels,
                          const core::Outcome& outcome);
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -13,21 +12,12 @@
 #include "metamorph/random.h"
 #include "metamorph/stability.h"
 #include "tests/bodies.h"
+#include "tests/outcomes.h"
 
 namespace metamorph::core {
 namespace {
 
-bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-
-bool same(const Outcome& a, const Outcome& b) {
-  return a.status == b.status && same_bits(a.distance, b.distance) &&
-         same_bits(a.mean_position[0], b.mean_position[0]) &&
-         same_bits(a.mean_position[1], b.mean_position[1]) && a.cells == b.cells &&
-         a.springs == b.springs && a.triangles == b.triangles && a.steps == b.steps &&
-         same_bits(a.settle_time, b.settle_time) && same_bits(a.min_area_ratio, b.min_area_ratio) &&
-         same_bits(a.max_speed, b.max_speed) && a.failed_step == b.failed_step &&
-         a.failed_index == b.failed_index && same_bits(a.failed_value, b.failed_value);
-}
+using tests::same_bits;
 
 /// Short scenes: bits are decided in the first steps as well as in the last.
 std::vector<Scene> short_scenes() {
@@ -66,7 +56,8 @@ TEST_P(Batch, EqualsSinglesForAnySizeAndOrder) {
   const Tasks all(60);
   const auto whole = simulate(all.tasks, options(1));
   for (std::size_t i = 0; i < all.tasks.size(); ++i) {
-    EXPECT_TRUE(same(whole[i], simulate({&all.tasks[i], 1}, options(1)).front())) << "task " << i;
+    EXPECT_TRUE(same_bits(whole[i], simulate({&all.tasks[i], 1}, options(1)).front()))
+        << "task " << i;
   }
   std::vector<std::size_t> order(all.tasks.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -78,7 +69,7 @@ TEST_P(Batch, EqualsSinglesForAnySizeAndOrder) {
   for (const std::size_t i : order) shuffled.push_back(all.tasks[i]);
   const auto results = simulate(shuffled, options(1));
   for (std::size_t i = 0; i < order.size(); ++i) {
-    EXPECT_TRUE(same(whole[order[i]], results[i])) << "task " << order[i];
+    EXPECT_TRUE(same_bits(whole[order[i]], results[i])) << "task " << order[i];
   }
 }
 
@@ -88,7 +79,7 @@ TEST_P(Batch, EqualsItselfForAnyNumberOfThreads) {
   for (const int threads : {2, 3, 7}) {
     const auto many = simulate(all.tasks, options(threads));
     for (std::size_t i = 0; i < all.tasks.size(); ++i) {
-      EXPECT_TRUE(same(one[i], many[i])) << "task " << i << ", " << threads << " threads";
+      EXPECT_TRUE(same_bits(one[i], many[i])) << "task " << i << ", " << threads << " threads";
     }
   }
 }
@@ -170,7 +161,7 @@ TEST_P(FailureIn, ABatchIsNamedAndDisturbsNobody) {
   const auto with_failure = simulate(all.tasks, options);
   for (std::size_t i = 0; i < all.tasks.size(); ++i) {
     if (i == bad) continue;
-    EXPECT_TRUE(same(healthy[i], with_failure[i])) << "task " << i;
+    EXPECT_TRUE(same_bits(healthy[i], with_failure[i])) << "task " << i;
   }
   const Outcome& outcome = with_failure[bad];
   EXPECT_EQ(name(outcome.status), name(failure.status));

@@ -37,7 +37,8 @@ class Watched {
         body_(std::move(body)),
         task_{&body_, &scene_},
         batch_({&task_, 1}, false, 1) {
-    view_ = batch_.view(0, state_);
+    shape_ = batch_.shape(0);
+    state_ = batch_.start(0, buffers_);
     list_.reset(body_, scene_, batch_, 0);
     std::vector<std::uint32_t> lane_of(body_.x.size());
     const auto nodes = batch_.node_of_lane(0);
@@ -53,7 +54,7 @@ class Watched {
   template <class Motion>
   void move(Motion&& to) {
     step(to);
-    std::swap(view_.now, view_.next);
+    std::swap(state_.now, state_.next);
   }
 
   /// The same, then asks the list about the way there, as what stops approaches does. Returns how
@@ -63,7 +64,7 @@ class Watched {
     check();
     std::vector<Pair> held = list();
     step(to);
-    if (!list_.held(view_.now, view_.next, view_.inverse_mass)) held = list();
+    if (!list_.held(state_.now, state_.next, shape_.inverse_mass)) held = list();
     std::set<std::array<std::uint32_t, 3>> listed;
     for (const Pair& pair : held) listed.insert(pair.lanes);
     int met = 0;
@@ -74,7 +75,7 @@ class Watched {
       ++met;
       EXPECT_EQ(listed.count(pair.lanes), 1u) << "missed, gap " << gap << " on the way";
     }
-    std::swap(view_.now, view_.next);
+    std::swap(state_.now, state_.next);
     check();
     return met;
   }
@@ -139,14 +140,14 @@ class Watched {
     constexpr int width = kernels::Lanes<T>::width;
     std::array<T, width> speed2{};
     const T h = T(0.25);
-    for (int l = 0; l < view_.nodes; ++l) {
-      const kernels::NodeRecord<T> record = view_.now[l];
+    for (int l = 0; l < shape_.nodes; ++l) {
+      const kernels::NodeRecord<T> record = state_.now[l];
       const double from_x = static_cast<double>(record.x), from_y = static_cast<double>(record.y);
       const auto [x, y] = to(l, from_x, from_y);
       const T vx = static_cast<T>((x - from_x) / h), vy = static_cast<T>((y - from_y) / h);
-      view_.next[l] = record;
-      view_.next[l].x = std::fma(h, vx, record.x);
-      view_.next[l].y = std::fma(h, vy, record.y);
+      state_.next[l] = record;
+      state_.next[l].x = std::fma(h, vx, record.x);
+      state_.next[l].y = std::fma(h, vy, record.y);
       T& most = speed2[static_cast<std::size_t>(l % width)];
       most = std::max(most, vx * vx + vy * vy);
     }
@@ -155,7 +156,7 @@ class Watched {
   }
 
   std::vector<Pair> list() {
-    const kernels::CollisionPairs<T> pairs = list_.pairs(view_.now, view_.inverse_mass);
+    const kernels::CollisionPairs<T> pairs = list_.pairs(state_.now, shape_.inverse_mass);
     EXPECT_EQ(pairs.count % kernels::Lanes<T>::width, 0);
     std::vector<Pair> listed;
     for (int i = 0; i < pairs.count; ++i) {
@@ -171,7 +172,8 @@ class Watched {
   kernels::reference::ClosestPoint closest_point(const Pair& pair, double share) const {
     std::array<double, 3> x{}, y{};
     for (std::size_t k = 0; k < 3; ++k) {
-      const kernels::NodeRecord<T>&from = view_.now[pair.lanes[k]], &to = view_.next[pair.lanes[k]];
+      const kernels::NodeRecord<T>&from = state_.now[pair.lanes[k]],
+            &to = state_.next[pair.lanes[k]];
       x[k] = static_cast<double>(from.x);
       y[k] = static_cast<double>(from.y);
       if (share == 0) continue;
@@ -185,9 +187,9 @@ class Watched {
   /// What rounding the coordinates and the arithmetic on them can change of a distance.
   double doubt() const {
     double size = 1;
-    for (int l = 0; l < view_.nodes; ++l)
-      size = std::max({size, std::abs(static_cast<double>(view_.now[l].x)),
-                       std::abs(static_cast<double>(view_.now[l].y))});
+    for (int l = 0; l < shape_.nodes; ++l)
+      size = std::max({size, std::abs(static_cast<double>(state_.now[l].x)),
+                       std::abs(static_cast<double>(state_.now[l].y))});
     return 32 * static_cast<double>(std::numeric_limits<T>::epsilon()) * size;
   }
 
@@ -196,8 +198,9 @@ class Watched {
   Body body_;
   LocomotionTask task_;
   BodyBatch<T> batch_;
-  BodyState<T> state_;
-  kernels::BodyView<T> view_{};
+  StateBuffers<T> buffers_;
+  kernels::BodyShape<T> shape_{};
+  kernels::BodyState<T> state_{};
   CollisionList<T> list_;
   std::vector<Pair> pairs_;  // all there are
 };

@@ -316,6 +316,9 @@ TEST_F(Program, SimulatePrintsWhatTheLibrarySays) {
             std::vector(outcome.mean_position.begin(), outcome.mean_position.end()));
   EXPECT_EQ(line["steps"], outcome.steps);
   EXPECT_EQ(line["cells"], 19);
+  EXPECT_EQ(line["near_step_limit"], outcome.near_step_limit);
+  EXPECT_EQ(line["settle_step"], outcome.settle_step);
+  EXPECT_FALSE(line.contains("failed_step"));
 }
 
 TEST_F(Program, ADirectoryIsOneBatchWithoutItsEmbryos) {

@@ -10,6 +10,7 @@
 #include "evolve/run/run_reader.h"
 #include "tests/evolve/files.h"
 #include "tests/evolve/runs.h"
+#include "tests/outcomes.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -21,6 +22,7 @@ using tests::lines_of;
 using tests::run_in_pieces;
 using tests::run_whole;
 using tests::TemporaryDirectory;
+using tests::text_of;
 using tests::tiny_experiment;
 
 constexpr int die_output = core::network_inputs + 2;
@@ -241,15 +243,6 @@ TEST(Evaluator, RememberedResultsAreThoseOfAFreshEvaluation) {
       }
     }
   }
-}
-
-/// Every field of an outcome, to the last digit.
-std::string text_of(const core::Outcome& o) {
-  return fmt::format("{} {:a} {:a} {:a} {} {} {} {} {:a} {:a} {:a} {:a} {:a} {} {} {:a}",
-                     core::name(o.status), o.mean_position[0], o.mean_position[1], o.distance,
-                     o.cells, o.springs, o.triangles, o.steps, o.settle_time, o.min_area_ratio,
-                     o.max_speed, o.longest_spring, o.long_spring_share, o.failed_step,
-                     o.failed_index, o.failed_value);
 }
 
 std::string text_of(const Evaluated& one) {

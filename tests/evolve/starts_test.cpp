@@ -16,6 +16,7 @@
 #include "tests/bodies.h"
 #include "tests/evolve/files.h"
 #include "tests/evolve/runs.h"
+#include "tests/outcomes.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -26,6 +27,7 @@ using tests::contents;
 using tests::run_in_pieces;
 using tests::run_whole;
 using tests::TemporaryDirectory;
+using tests::text_of;
 using tests::tiny_experiment;
 
 constexpr StartsCombine rules[] = {StartsCombine::mean, StartsCombine::median,
@@ -50,13 +52,6 @@ core::Outcome outcome(Status status, double distance, double x = 0, int steps = 
   o.mean_position = {x, -x};
   o.steps = steps;
   return o;
-}
-
-/// Every field of an outcome that a rule may choose or compute, to the last digit.
-std::string text_of(const core::Outcome& o) {
-  return fmt::format("{} {:a} {:a} {:a} {} {} {:a} {:a}", core::name(o.status), o.distance,
-                     o.mean_position[0], o.mean_position[1], o.cells, o.steps, o.settle_time,
-                     o.max_speed);
 }
 
 TEST(CombineStarts, OfOneItIsThatOneToTheBit) {

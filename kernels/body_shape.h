@@ -21,26 +21,30 @@ namespace metamorph::kernels {
 template <class T>
 using Turn = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
 
-/// A phase as a fraction of a turn in fixed point: 2^bits is one turn, so phases wrap exactly.
+/// What is constant of a body. An oscillator's phase is a fraction of a turn in fixed point: 2^bits
+/// is one turn, so phases wrap exactly.
 template <class T>
-struct OscillatorView {
-  const Turn<T>* start;     ///< phase at step 0
-  const Turn<T>* per_step;  ///< advance of one step
-};
-
-template <class T>
-struct BodyView {
+struct BodyShape {
   int nodes = 0;           ///< real nodes; lanes beyond them are idle
   int groups = 0;          ///< ceil(nodes / width)
   int outline_groups = 0;  ///< the first groups, which hold every outline node
+
+  bool mixed_periods = false;  ///< an oscillator has another than the body's main period
+  std::uint64_t advance = 0;   ///< of the main period in one step: 2^64 is one turn
 
   // [groups]
   const int* ring_begin = nullptr;   ///< first slot of the group
   const int* ring_size = nullptr;    ///< its slots
   const int* ring_closed = nullptr;  ///< 1 if a lane of the group has a closed ring
-  const int* odd = nullptr;          ///< 1 if an oscillator of another period is in its rings
+  const int* off_period = nullptr;   ///< 1 if an oscillator of another period is in its rings
+
   // [groups * width]
-  const T* closing_area2 = nullptr;  ///< 2 S0 of the triangle that closes a ring, d^2; 0: none
+  const T* inverse_mass = nullptr;      ///< 1; 0 in an idle lane
+  const T* closing_area2 = nullptr;     ///< 2 S0 of the triangle that closes a ring, d^2; 0: none
+  const T* node_off_period = nullptr;   ///< 1 if the node's period is another, else 0
+  const Turn<T>* node_start = nullptr;  ///< its phase at step 0
+  const Turn<T>* node_per_step = nullptr;  ///< and the advance of one step
+
   // [slots * width]
   const std::uint32_t* neighbour = nullptr;  ///< record offset; its own where there is no such slot
   const T* rest_length = nullptr;            ///< L0, d
@@ -49,36 +53,33 @@ struct BodyView {
   // The oscillators of a body's main period: both of a spring are one, a sin + b cos of 2 pi t/T.
   const T* swing_sine = nullptr;    ///< L0 (cos phi_i + cos phi_j) of those that have it, d
   const T* swing_cosine = nullptr;  ///< L0 (sin phi_i + sin phi_j)
-  // Oscillators of other periods.
-  const T* ring_odd = nullptr;  ///< 1 if the neighbour's is such a one, else 0
-  OscillatorView<T> ring_oscillator{};
-  // [groups * width]
-  const T* node_odd = nullptr;  ///< 1 if the node's own is such a one, else 0
-  OscillatorView<T> node_oscillator{};
-  const T* inverse_mass = nullptr;  ///< 1; 0 in an idle lane
-
-  bool mixed_periods = false;  ///< there is any such
-  std::uint64_t advance = 0;   ///< of the main period in one step: 2^64 is one turn
+  // The neighbour's, where its period is another.
+  const T* ring_off_period = nullptr;  ///< 1 if it is, else 0
+  const Turn<T>* ring_start = nullptr;
+  const Turn<T>* ring_per_step = nullptr;
 
   // Outline edges of the nodes of the first groups. A ring that is one open fan has them at its
   // ends; those inside a ring of several fans follow, one slot per edge of a node.
+  // [outline_groups]
+  const int* edge_begin = nullptr;  ///< first edge slot
+  const int* edge_size = nullptr;
   // [outline_groups * width]
   const T* on_outline = nullptr;  ///< 1: edges lead to the ring's first and last neighbour; else 0
-  const int* edge_begin = nullptr;  ///< [outline_groups] first edge slot
-  const int* edge_size = nullptr;   ///< [outline_groups]
-  const std::uint32_t* edge_other =
-      nullptr;                      ///< [edge slots * width] record offset of the other end
-  const T* edge_present = nullptr;  ///< [edge slots * width] 1 or 0
+  // [edge slots * width]
+  const std::uint32_t* edge_other = nullptr;  ///< record offset of the other end
+  const T* edge_present = nullptr;            ///< 1 or 0
+};
 
-  // State. A record holds the position at which forces are taken and the velocity extrapolated to
-  // the same moment; `vx`, `vy` the velocity after the last kick.
-  NodeRecord<T>* now = nullptr;   ///< [groups * width]
-  NodeRecord<T>* next = nullptr;  ///< [groups * width]
-  T* vx = nullptr;                ///< [groups * width]
+/// What changes: of [groups * width]. A record holds the position at which forces are taken and the
+/// velocity extrapolated to the same moment; `vx`, `vy` the velocity after the last kick.
+template <class T>
+struct BodyState {
+  NodeRecord<T>* now = nullptr;   ///< read by a step
+  NodeRecord<T>* next = nullptr;  ///< written by it
+  T* vx = nullptr;
   T* vy = nullptr;
-
   // Forces from outside the step (self-collision), zero where there are none.
-  const T* extra_fx = nullptr;  ///< [groups * width]
+  const T* extra_fx = nullptr;
   const T* extra_fy = nullptr;
 };
 
