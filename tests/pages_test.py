@@ -1,5 +1,5 @@
 """Checks that pages and code speak of what there is: sections that comments cite, files that pages
-name, links between pages and to pictures.
+name, links between pages, pictures that a page shows.
 
 usage: pages_test.py SOURCE_TREE
 """
@@ -13,6 +13,7 @@ PAGES = {"MODEL": "core/MODEL.md", "NUMERICS": "kernels/NUMERICS.md"}
 # What happened is told in the names of its time.
 TELLS_OF_THE_PAST = {"CHANGELOG.md"}
 CODE = {".h", ".cpp", ".py", ".sh", ".txt", ".cmake", ".toml", ".md"}
+PICTURES = {".png", ".svg", ".jpg", ".gif"}
 CITATION = re.compile(r"\b(MODEL|NUMERICS) sections? (\d+)(?:, tests? ([\d, ]+\d))?")
 HEADING = re.compile(r"^## (\d+)\. ", re.M)
 ROW = re.compile(r"^\| *(\d[\d, -]*) *\|", re.M)
@@ -88,6 +89,15 @@ def link_faults(root):
                 yield f"{path.relative_to(root)}: links to {target}, there is none"
 
 
+def picture_faults(root):
+    """Pictures in the repository that no page shows."""
+    shown = {(path.parent / target).resolve() for path in files(root, {".md"})
+             for target in LINK.findall(path.read_text())}
+    for path in files(root, PICTURES):
+        if path.resolve() not in shown:
+            yield f"{path.relative_to(root)}: a picture that no page shows"
+
+
 def self_test():
     """The scan must see a fault, or its silence means nothing."""
     import tempfile
@@ -110,12 +120,16 @@ def self_test():
         assert len(list(citation_faults(root))) == 2
         assert len(list(name_faults(root))) == 2
         assert len(list(link_faults(root))) == 1
+        write(root, "core/a.png", "")
+        write(root, "a.png", "")
+        assert len(list(picture_faults(root))) == 1
 
 
 def main():
     root = Path(sys.argv[1])
     self_test()
-    faults = [*citation_faults(root), *name_faults(root), *link_faults(root)]
+    faults = [*citation_faults(root), *name_faults(root), *link_faults(root),
+              *picture_faults(root)]
     for fault in faults:
         print(fault)
     sys.exit(1 if faults else 0)
