@@ -1,5 +1,5 @@
 """Checks that pages and code speak of what there is: sections that comments cite, files that pages
-name, links between pages, pictures that a page shows.
+name, links between pages, pictures that a page shows, one version.
 
 usage: pages_test.py SOURCE_TREE
 """
@@ -14,6 +14,9 @@ PAGES = {"MODEL": "core/MODEL.md", "NUMERICS": "kernels/NUMERICS.md"}
 TELLS_OF_THE_PAST = {"CHANGELOG.md"}
 CODE = {".h", ".cpp", ".py", ".sh", ".txt", ".cmake", ".toml", ".md"}
 PICTURES = {".png", ".svg", ".jpg", ".gif"}
+VERSIONS = {"CMakeLists.txt": r"^project\(metamorph VERSION ([\d.]+)",
+            "CITATION.cff": r"^version: ([\d.]+)$",
+            "CHANGELOG.md": r"^## \[(\d[\d.]*)\]"}
 CITATION = re.compile(r"\b(MODEL|NUMERICS) sections? (\d+)(?:, tests? ([\d, ]+\d))?")
 HEADING = re.compile(r"^## (\d+)\. ", re.M)
 ROW = re.compile(r"^\| *(\d[\d, -]*) *\|", re.M)
@@ -98,6 +101,16 @@ def picture_faults(root):
             yield f"{path.relative_to(root)}: a picture that no page shows"
 
 
+def version_faults(root):
+    """The build, CITATION.cff and the newest release of CHANGELOG.md have one version."""
+    told = {}
+    for name, pattern in VERSIONS.items():
+        match = re.search(pattern, (root / name).read_text(), re.M)
+        told[name] = match.group(1) if match else None
+    if len(set(told.values())) != 1 or None in told.values():
+        yield "versions differ: " + ", ".join(f"{name} {version}" for name, version in told.items())
+
+
 def self_test():
     """The scan must see a fault, or its silence means nothing."""
     import tempfile
@@ -123,13 +136,19 @@ def self_test():
         write(root, "core/a.png", "")
         write(root, "a.png", "")
         assert len(list(picture_faults(root))) == 1
+        write(root, "CMakeLists.txt", "project(metamorph VERSION 1.2.0 LANGUAGES CXX)")
+        write(root, "CITATION.cff", "cff-version: 1.2.0\nversion: 1.2.0\n")
+        write(root, "CHANGELOG.md", "## [Unreleased]\n\n## [1.2.0] - 2026-01-01\n## [1.1.0]\n")
+        assert [*version_faults(root)] == []
+        write(root, "CITATION.cff", "version: 1.1.0\n")
+        assert len(list(version_faults(root))) == 1
 
 
 def main():
     root = Path(sys.argv[1])
     self_test()
     faults = [*citation_faults(root), *name_faults(root), *link_faults(root),
-              *picture_faults(root)]
+              *picture_faults(root), *version_faults(root)]
     for fault in faults:
         print(fault)
     sys.exit(1 if faults else 0)
