@@ -1,5 +1,6 @@
 """Checks that pages and code speak of what there is: sections that comments cite, files that pages
-name, links between pages, pictures that a page shows, one version.
+name, links between pages, pictures that a page shows, one version,
+the model's numbers.
 
 usage: pages_test.py SOURCE_TREE
 """
@@ -17,6 +18,49 @@ PICTURES = {".png", ".svg", ".jpg", ".gif"}
 VERSIONS = {"CMakeLists.txt": r"^project\(metamorph VERSION ([\d.]+)",
             "CITATION.cff": r"^version: ([\d.]+)$",
             "CHANGELOG.md": r"^## \[(\d[\d.]*)\]"}
+# What the model's page says of a number of the code.
+NUMBERS = {
+    "core/include/metamorph/scene.h": {
+        "damping": "c = {}, c_p", "pressure": "c_p = {},", "amplitude": "A = {} ",
+        "min_pressure_area": "S0 < {} d^2", "drag_normal": "d_N = {},",
+        "drag_tangential": "d_T = {} ", "gravity": "gravity g = {},",
+        "friction": "mu = {} on flat land", "collision_stiffness": "k_s = {},",
+        "collision_gap": "min({} d, the gap at rest)", "collision_least_gap": "min({} d, theta/2)",
+        "step": "step is {} in water", "run_steps": "{} steps of actuation",
+        "ramp_steps": "over the first {} steps", "settle_step": "Symplectic Euler at {},",
+        "settle_damping": "c = {} and a drag", "settle_drag": "a drag of {} v",
+        "settle_speed": "below a speed of {} for", "settle_quiet_steps": "for {} steps.",
+        "settle_max_steps": "After {} steps,"},
+    "core/locomotion/scene.cpp": {
+        "step": "and {} on land", "friction": "and {} on the slope",
+        "settle_range": "has gone {} d along x", "slope_degrees": "{} degrees **[P 4.7]**"},
+    "core/include/metamorph/development.h": {
+        "max_cells": "At most {} living cells", "renew_interval": "Renewal if {} divides s",
+        "update_interval": "update if {} divides s", "drag": "b = {} **[O]**",
+        "step": "One symplectic Euler step of {} per paper step", "link_limit": "longer than {} d",
+        "division_space": "within {} d of that point", "coordinate_scale": "divided by {} d",
+        "period_min": "T_min = {},", "period_max": "T_max = {} time units"},
+    "evolve/genetics/population.h": {
+        "population": "**Population**: {},", "hidden_nodes": "{} hidden nodes",
+        "initial_weight": "Weights are {} (u - u')", "species_min": "below {} species",
+        "species_max": "above {},", "compatibility_threshold": "which starts at {},",
+        "compatibility_step": "falls by {} per generation", "young_bonus": "times {} in species",
+        "weight_difference_factor": "plus {} times the mean difference",
+        "young_age": "younger than {} generations", "old_age": "older than {},",
+        "stagnation": "new best for {} generations", "survival_share": "floor({} n) + 1",
+        "crossover": "two parents with probability {} ", "interspecies_crossover": "with {})",
+        "mutation_after_crossover": "with {} if two", "mutate_weights": "| weights | {} |",
+        "multipoint": "(probability {} of this kind", "add_link": "| add link | {} |",
+        "add_node": "| add node | {} |", "remove_link": "| remove link | {} |",
+        "weight_limit": "within {};", "clone_tries": "bred again, {} times at most"},
+    "evolve/search/search.h": {
+        "neighbours": "k = {} nearest", "archive_threshold": "starts at {} d",
+        "archive_floor": "is {} d at least", "archive_many": "more than {} additions",
+        "archive_idle": "after {} generations without one"},
+    "evolve/experiment/experiment.h": {
+        "created_limit": "More than {} cells ever created", "created_penalty": "fitness times {}.",
+        "min_cells": "Fewer than {} nodes", "start_displacement": "`start_displacement` = {} d"},
+}
 CITATION = re.compile(r"\b(MODEL|NUMERICS) sections? (\d+)(?:, tests? ([\d, ]+\d))?")
 HEADING = re.compile(r"^## (\d+)\. ", re.M)
 ROW = re.compile(r"^\| *(\d[\d, -]*) *\|", re.M)
@@ -111,6 +155,19 @@ def version_faults(root):
         yield "versions differ: " + ", ".join(f"{name} {version}" for name, version in told.items())
 
 
+def number_faults(root):
+    """Numbers of the model's page that are not those of the code."""
+    page = " ".join((root / PAGES["MODEL"]).read_text().split())
+    for file, numbers_of_file in NUMBERS.items():
+        code = (root / file).read_text() if (root / file).is_file() else ""
+        for member, phrase in numbers_of_file.items():
+            match = re.search(rf"\b{member} = ([\d.e-]+);", code)
+            value = f"{float(match.group(1)):g}" if match else "?"
+            if phrase.format(value) not in page:
+                yield (f"{file}: {member} = {value}, but {PAGES['MODEL']} does not say "
+                       f'"{phrase.format(value)}"')
+
+
 def self_test():
     """The scan must see a fault, or its silence means nothing."""
     import tempfile
@@ -140,6 +197,13 @@ def self_test():
         write(root, "CITATION.cff", "cff-version: 1.2.0\nversion: 1.2.0\n")
         write(root, "CHANGELOG.md", "## [Unreleased]\n\n## [1.2.0] - 2026-01-01\n## [1.1.0]\n")
         assert [*version_faults(root)] == []
+        for file, members in NUMBERS.items():
+            write(root, file, "".join(f"double {member} = 0.5;\n" for member in members))
+        write(root, "core/MODEL.md", "\n".join(phrase.format("0.5") for members in
+                                               NUMBERS.values() for phrase in members.values()))
+        assert [*number_faults(root)] == []
+        write(root, "evolve/search/search.h", "int neighbours = 14;")
+        assert len(list(number_faults(root))) == len(NUMBERS["evolve/search/search.h"])
         write(root, "CITATION.cff", "version: 1.1.0\n")
         assert len(list(version_faults(root))) == 1
 
@@ -148,7 +212,8 @@ def main():
     root = Path(sys.argv[1])
     self_test()
     faults = [*citation_faults(root), *name_faults(root), *link_faults(root),
-              *picture_faults(root), *version_faults(root)]
+              *picture_faults(root), *version_faults(root),
+              *number_faults(root)]
     for fault in faults:
         print(fault)
     sys.exit(1 if faults else 0)
