@@ -12,38 +12,14 @@
 #include "metamorph/random.h"
 #include "metamorph/stability.h"
 #include "tests/bodies.h"
+#include "tests/core/short_tasks.h"
 #include "tests/outcomes.h"
 
 namespace metamorph::core {
 namespace {
 
 using tests::same_bits;
-
-/// Short scenes: bits are decided in the first steps as well as in the last.
-std::vector<Scene> short_scenes() {
-  std::vector<Scene> scenes = {water_scene(), land_scene(), land_right_scene(), slope_scene()};
-  for (Scene& scene : scenes) {
-    scene.run_steps = 100;
-    scene.settle_max_steps = 40;
-  }
-  return scenes;
-}
-
-struct Tasks {
-  std::vector<Body> bodies;
-  std::vector<Scene> scenes = short_scenes();
-  std::vector<LocomotionTask> tasks;
-
-  explicit Tasks(int count) {
-    for (int i = 0; i < count; ++i) {
-      bodies.push_back(tests::blob_body(24 + (i * 37) % 200, static_cast<std::uint64_t>(i + 1)));
-    }
-    for (int i = 0; i < count; ++i) {
-      tasks.push_back({&bodies[static_cast<std::size_t>(i)],
-                       &scenes[static_cast<std::size_t>(i) % scenes.size()]});
-    }
-  }
-};
+using tests::Tasks;
 
 class Batch : public testing::TestWithParam<Precision> {
  protected:
@@ -70,17 +46,6 @@ TEST_P(Batch, EqualsSinglesForAnySizeAndOrder) {
   const auto results = simulate(shuffled, options(1));
   for (std::size_t i = 0; i < order.size(); ++i) {
     EXPECT_TRUE(same_bits(whole[order[i]], results[i])) << "task " << order[i];
-  }
-}
-
-TEST_P(Batch, EqualsItselfForAnyNumberOfThreads) {
-  const Tasks all(60);
-  const auto one = simulate(all.tasks, options(1));
-  for (const int threads : {2, 3, 7}) {
-    const auto many = simulate(all.tasks, options(threads));
-    for (std::size_t i = 0; i < all.tasks.size(); ++i) {
-      EXPECT_TRUE(same_bits(one[i], many[i])) << "task " << i << ", " << threads << " threads";
-    }
   }
 }
 

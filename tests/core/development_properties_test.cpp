@@ -10,36 +10,14 @@
 #include "core/development/developer.h"
 #include "core/development/links.h"
 #include "metamorph/development.h"
-#include "tests/core/network_builder.h"
+#include "tests/core/random_developments.h"
 
 namespace metamorph::core {
 namespace {
 
-using testing::random_network;
-
-bool same(const Embryo& a, const Embryo& b) {
-  return a.step == b.step && a.status == b.status && a.id == b.id && a.mother == b.mother &&
-         a.birth_step == b.birth_step && a.x == b.x && a.y == b.y &&
-         a.orientation == b.orientation && a.period == b.period && a.phase == b.phase &&
-         a.links == b.links && a.faces == b.faces && a.created == b.created && a.died == b.died;
-}
-
-bool same(const std::vector<Embryo>& a, const std::vector<Embryo>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const Embryo& p, const Embryo& q) { return same(p, q); });
-}
-
-std::vector<Network> population(std::uint64_t seed, std::uint32_t count) {
-  std::vector<Network> networks;
-  for (std::uint32_t i = 0; i < count; ++i) networks.push_back(random_network(seed, i));
-  return networks;
-}
-
-std::vector<std::vector<Embryo>> grow(const std::vector<Network>& networks,
-                                      const std::vector<int>& stages, int threads = 1,
-                                      const DevelopmentRules& rules = {}) {
-  return develop(networks, rules, stages, threads);
-}
+using testing::grow;
+using testing::population;
+using testing::same;
 
 RC_GTEST_PROP(RandomDevelopment, KeepsItsBooksAndItsGeometry, ()) {
   DevelopmentRules rules;
@@ -107,20 +85,6 @@ TEST(RandomDevelopment, FloatFollowsDoubleAtFirst) {
     grown += a.cell_count() > 4;
   }
   EXPECT_GT(grown, 10);
-}
-
-TEST(RandomDevelopment, BatchOrderAndThreadsDoNotChangeABit) {
-  auto networks = population(12, 40);
-  const std::vector<int> stages = {600, 1200};
-  const auto batch = grow(networks, stages, 1);
-  const auto threaded = grow(networks, stages, 2);
-  std::reverse(networks.begin(), networks.end());
-  const auto reversed = grow(networks, stages, 3);
-  for (std::size_t i = 0; i < networks.size(); ++i) {
-    EXPECT_TRUE(same(batch[i], threaded[i]));
-    EXPECT_TRUE(same(batch[i], reversed[networks.size() - 1 - i]));
-    EXPECT_TRUE(same(batch[i], grow({networks[networks.size() - 1 - i]}, stages).front()));
-  }
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "metamorph/scene.h"
 #include "metamorph/status.h"
 #include "tests/bodies.h"
+#include "tests/core/agreement.h"
 #include "tests/physics.h"
 #include "tests/simulators.h"
 #include "tests/tolerance.h"
@@ -17,54 +18,11 @@
 namespace metamorph::tests {
 namespace {
 
-/// The largest root mean square distance of the nodes at any moment, and both outcomes.
-struct Comparison {
-  double distance = 0;
-  core::Outcome reference, fast;
-};
-
-Comparison compare(const Simulator& reference, const Simulator& fast, const core::Body& body,
-                   const core::Scene& scene, int every) {
-  const Film expected = film(reference, body, scene, every);
-  const Film actual = film(fast, body, scene, every);
-  Comparison result{0, expected.outcome, actual.outcome};
-  EXPECT_EQ(expected.pictures.size(), actual.pictures.size());
-  for (std::size_t p = 0; p < std::min(expected.pictures.size(), actual.pictures.size()); ++p) {
-    const auto& a = expected.pictures[p];
-    const auto& b = actual.pictures[p];
-    result.distance = std::max(result.distance, rms_distance(a.x, a.y, b.x, b.y));
-  }
-  return result;
-}
-
 class Agreement : public testing::TestWithParam<Simulator> {};
 
 INSTANTIATE_TEST_SUITE_P(Simulators, Agreement,
                          testing::Values(float64_simulator(), float32_simulator()),
                          testing::PrintToStringParamName());
-
-/// Rounding of places of up to 8 d in every step, and what contact with the ground makes of it.
-double rounding(const Simulator& fast, const core::Scene& scene, const core::Outcome& outcome) {
-  return tolerance::drift(fast.round_off, 8, static_cast<double>(outcome.steps)) *
-         (scene.ground ? 10 : 1);
-}
-
-void expect_agreement(const Simulator& fast, const core::Body& body, const core::Scene& scene,
-                      const Simulator& reference = reference_simulator()) {
-  SCOPED_TRACE(scene.name + ", " + std::to_string(body.node_count()) + " nodes, collision gap " +
-               std::to_string(scene.collision_gap));
-  const Comparison c = compare(reference, fast, body, scene, 100);
-  ASSERT_EQ(c.reference.status, core::Status::ok);
-  EXPECT_EQ(c.fast.status, core::Status::ok);
-  EXPECT_TRUE(within(c.distance, rounding(fast, scene, c.reference)));
-  EXPECT_TRUE(within(c.fast.distance - c.reference.distance, rounding(fast, scene, c.reference)));
-  // The moment of rest may differ by a few steps where a speed of 0.01 is met closely.
-  EXPECT_TRUE(within(c.fast.settle_time - c.reference.settle_time, 0.5));
-  // The fast simulator sees the places in the middle of steps: half a step of at most 2 d per time
-  // unit away from the reference's, over heights of triangles that are not below 0.4 d.
-  EXPECT_TRUE(within(c.fast.min_area_ratio - c.reference.min_area_ratio, 0.05 * 2 / 0.4));
-  EXPECT_TRUE(within(c.fast.max_speed / c.reference.max_speed - 1, 0.02));
-}
 
 TEST_P(Agreement, OfEveryNodeAtEveryMomentInWater) {
   const core::Scene scene = lasting(core::water_scene(), 200);
@@ -199,42 +157,6 @@ TEST_P(Agreement, OnWhatFails) {
     }
   EXPECT_GT(failures, 3);
   EXPECT_LT(failures, runs);
-}
-
-class SlowAgreement : public testing::TestWithParam<Simulator> {};
-
-INSTANTIATE_TEST_SUITE_P(Simulators, SlowAgreement,
-                         testing::Values(float64_simulator(), float32_simulator()),
-                         testing::PrintToStringParamName());
-
-TEST_P(SlowAgreement, OfLargeBodies) {
-  for (const int nodes : {150, 256}) {
-    expect_agreement(GetParam(), blob_body(nodes, 2), lasting(core::water_scene(), 200));
-    expect_agreement(GetParam(), blob_body(nodes, 2), lasting(core::land_scene(), 100));
-  }
-}
-
-TEST_P(SlowAgreement, OfAnEnsembleAtTheEndOfALongRun) {
-  // NUMERICS section 8, test 25, at T = 400. Float64 stays at its rounding.
-  const double share = GetParam().round_off / round_off_32;
-  for (const core::Scene& scene : {core::water_scene(), core::land_scene()}) {
-    std::vector<double> difference, expected_distance, actual_distance;
-    for (std::uint64_t seed = 1; seed <= 24; ++seed) {
-      const core::Body body = blob_body(26 + 2 * static_cast<int>(seed), seed);
-      const core::Scene run = lasting(scene, 400);
-      const core::Outcome expected = core::simulate_reference(body, run);
-      const core::Outcome actual = GetParam().run(body, run, 100000, [](const core::Frame&) {});
-      EXPECT_EQ(expected.status, actual.status);
-      difference.push_back(std::fabs(expected.distance - actual.distance));
-      expected_distance.push_back(expected.distance);
-      actual_distance.push_back(actual.distance);
-    }
-    // tau > 0.999: none of 276 pairs may be swapped.
-    EXPECT_EQ(swapped_pairs(expected_distance, actual_distance), 0) << scene.name;
-    std::sort(difference.begin(), difference.end());
-    EXPECT_TRUE(within(difference[12], (scene.ground ? 2e-4 : 1e-4) * share)) << scene.name;
-    EXPECT_TRUE(within(difference.back(), (scene.ground ? 1e-2 : 1e-4) * share)) << scene.name;
-  }
 }
 
 }  // namespace

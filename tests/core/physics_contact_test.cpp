@@ -10,6 +10,7 @@
 #include "metamorph/scene.h"
 #include "metamorph/status.h"
 #include "tests/bodies.h"
+#include "tests/core/energy_record.h"
 #include "tests/physics.h"
 #include "tests/reference_methods.h"
 #include "tests/tolerance.h"
@@ -97,10 +98,6 @@ Bite bite(double speed, double h, double damping = 0) {
   }
   return result;
 }
-
-/// What drift-kick-drift conserves of an oscillation of frequency w is (1 - (w h)^2/4) K + U;
-/// w_max^2 = 10 at rest (NUMERICS section 2).
-double leapfrog_energy_error(double h) { return 10.0 * h * h / 4; }
 
 TEST(SelfCollision, IsElasticWhereThePenaltyKeepsThingsApart) {
   // The force has a kink where contact begins, so that the second-order energy error of the

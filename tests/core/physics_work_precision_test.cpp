@@ -20,7 +20,7 @@ namespace {
 /// NUMERICS section 8, test 27: what the default method is chosen for. A leapfrog computes an
 /// oscillation of frequency w with one that is wrong by (w h)^2/24 of itself; the frequencies that
 /// carry a gait are below that of a pair, sqrt(2 k/m), and so are the relative errors of the ways.
-TEST(SlowWorkPrecision, DriftKickDriftInFloatMeetsItsErrorAtItsPrice) {
+TEST(WorkPrecision, DriftKickDriftInFloatMeetsItsErrorAtItsPrice) {
   constexpr int bodies = 48;
   for (const auto& [damping, step] : {std::pair{0.2, 0.4}, std::pair{0.4, 0.2}}) {
     core::Scene scene = lasting(core::water_scene(), 400);

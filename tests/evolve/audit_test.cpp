@@ -86,20 +86,6 @@ TEST_F(Audit, KeepsTheBestOfTheGenerationsAskedFor) {
   EXPECT_EQ(first.champions[0].champion.individual, run.champion(0).individual);
 }
 
-TEST_F(Audit, ThreadsChangeNothing) {
-  const RunReader run(path());
-  AuditOptions one, two;
-  one.threads = 1;
-  two.threads = 2;
-  const RunAudit a = audit(run, one), b = audit(run, two);
-  ASSERT_EQ(a.champions.size(), b.champions.size());
-  for (std::size_t c = 0; c < a.champions.size(); ++c) {
-    EXPECT_EQ(a.champions[c].reference_eq6, b.champions[c].reference_eq6);
-    EXPECT_EQ(a.champions[c].trials[1].nearby.spread, b.champions[c].trials[1].nearby.spread);
-  }
-  EXPECT_EQ(a.recorded.worst, b.recorded.worst);
-}
-
 // Distance earned by numerical error would show as record above reference. Over 60 paper steps no
 // gait has time to part from its neighbours, so what is left is the error of the step, h^2 times a
 // number of order 1 of the distance (0.04 in water, 0.01 on land), and that of the start of

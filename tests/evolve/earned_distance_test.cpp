@@ -184,7 +184,7 @@ Income income(const Hunt& hunt) {
   return result;
 }
 
-class SlowEarnedDistance : public testing::TestWithParam<std::pair<Hunt, double>> {};
+class EarnedDistance : public testing::TestWithParam<std::pair<Hunt, double>> {};
 
 core::Scene without_self_collision(core::Scene scene) {
   scene.self_collision = false;
@@ -197,7 +197,7 @@ core::Scene without_self_collision(core::Scene scene) {
 /// moving, gave these two hunts 12 % +- 2 % on land; its own test is in
 /// tests/kernels/reference_ground_test.cpp.)
 INSTANTIATE_TEST_SUITE_P(
-    Hunts, SlowEarnedDistance,
+    Hunts, EarnedDistance,
     testing::Values(std::pair{Hunt{"Water", core::water_scene()}, 0.017},
                     std::pair{Hunt{"WaterWithoutSelfCollision",
                                    without_self_collision(core::water_scene())},
@@ -205,7 +205,7 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{Hunt{"Land", core::land_scene(), 3, 24, 8}, 0.05}),
     [](const auto& param) { return param.param.first.name; });
 
-TEST_P(SlowEarnedDistance, IsNotToBeHadFromNumericalError) {
+TEST_P(EarnedDistance, IsNotToBeHadFromNumericalError) {
   const auto& [hunt, systematic] = GetParam();
   const Income found = income(hunt);
   RecordProperty("share", std::to_string(found.share) + " +- " + std::to_string(found.error));

@@ -15,33 +15,18 @@
 #include "evolve/genetics/reproduction.h"
 #include "evolve/genetics/species.h"
 #include "metamorph/random.h"
+#include "tests/evolve/fitness_rules.h"
 #include "tests/evolve/random_genomes.h"
 
 namespace metamorph::evolve {
 namespace {
 
+using testing::each;
 using ::testing::IsEmpty;
+using testing::pattern_fitness;
 using testing::restless;
 
 using FitnessRule = std::function<std::vector<double>(const PopulationState&)>;
-
-std::vector<double> each(const PopulationState& state,
-                         const std::function<double(std::size_t)>& value) {
-  std::vector<double> fitness;
-  for (std::size_t i = 0; i < state.genomes.size(); ++i) fitness.push_back(value(i));
-  return fitness;
-}
-
-// Grows as weights come near a pattern: something that evolution can improve.
-std::vector<double> pattern_fitness(const PopulationState& state) {
-  return each(state, [&](std::size_t i) {
-    double error = 0;
-    for (const LinkGene& link : state.genomes[i].links) {
-      error += std::abs(link.weight - (link.innovation % 5 - 2));
-    }
-    return 10 / (1 + error);
-  });
-}
 
 std::map<std::string, FitnessRule> regimes() {
   return {
@@ -267,22 +252,6 @@ TEST(Population, SpeciesAgeAndEnd) {
         ASSERT_GE(species.id, next_species);  // ids do not come back
         ASSERT_EQ(species.age, 0);
       }
-    }
-  }
-}
-
-TEST(Population, ThreadCountChangesNoBit) {
-  for (const bool wild : {false, true}) {
-    NeatSettings settings = wild ? restless() : NeatSettings{};
-    settings.population = 80;
-    PopulationState one = first_generation(settings, 21), two = one, three = one;
-    for (int g = 0; g < 25; ++g) {
-      const std::vector<double> fitness = pattern_fitness(one);
-      next_generation(one, settings, fitness, false, 1);
-      next_generation(two, settings, fitness, false, 2);
-      next_generation(three, settings, fitness, false, 3);
-      ASSERT_EQ(one, two);
-      ASSERT_EQ(one, three);
     }
   }
 }

@@ -10,6 +10,7 @@
 #include "evolve/view/motion.h"
 #include "tests/bodies.h"
 #include "tests/evolve/program.h"
+#include "tests/evolve/svg.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -38,9 +39,8 @@ class Render : public ::testing::Test {
   tests::ProgramResult render(const std::string& arguments) const {
     return run_program(here(), "render " + arguments);
   }
-  bool is_svg(const std::string& name) const {
-    const std::string text = tests::text_of(here() / name);
-    return text.starts_with("<?xml") && text.ends_with("</svg>\n");
+  tests::Svg svg(const std::string& name) const {
+    return tests::read_svg(tests::text_of(here() / name));
   }
 
  private:
@@ -51,15 +51,36 @@ TEST_F(Render, DrawsEveryKindOfAGenome) {
   for (const std::string kind : {"animat", "development", "motion", "phase"}) {
     const auto result = render("blob.json --kind " + kind + " --out " + kind + ".svg");
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_TRUE(is_svg(kind + ".svg")) << kind;
+    EXPECT_EQ(svg(kind + ".svg").fault, "") << kind;
+    EXPECT_GT(svg(kind + ".svg").drawn_paths, 8) << kind;  // a body has eight nodes at least
   }
 }
 
 TEST_F(Render, DrawsABody) {
   EXPECT_EQ(render("strip.json --out a.svg").exit_code, 0);
   EXPECT_EQ(render("strip.json --kind motion --scene land --out b.svg").exit_code, 0);
-  EXPECT_TRUE(is_svg("a.svg"));
-  EXPECT_TRUE(is_svg("b.svg"));
+  for (const std::string name : {"a.svg", "b.svg"}) {
+    EXPECT_EQ(svg(name).fault, "") << name;
+    EXPECT_GT(svg(name).drawn_paths, 18) << name;  // 18 triangles
+  }
+}
+
+TEST(Svg, IsReadOrItsFaultTold) {
+  const auto read = [](const std::string& body) {
+    return tests::read_svg("<?xml version=\"1.0\"?>\n" + body);
+  };
+  const tests::Svg sound = read(
+      "<svg a=\"1\" b=\"x &lt; y\">\n<defs><path d=\"M 0 0 L 1 1\"/></defs><!-- < -->\n"
+      "<g><path d=\"M 0 0 L 1 1 Z\"/><path d=\"M 0 0\"/><path d=\"M 0 0 C 1 1\" /></g></svg>\n");
+  EXPECT_EQ(sound.fault, "");
+  EXPECT_EQ(sound.drawn_paths, 2);
+  for (const std::string broken :
+       {"<svg><g></svg>", "<svg></g></svg>", "<svg>", "<svg/><svg/>", "<html></html>", "",
+        "<svg a=1/>", "<svg a=\"1/>", "<svg a=\"1\"b=\"2\"/>", "<svg a=\"1\" a=\"2\"/>",
+        "<svg>a & b</svg>", "<svg>< g/></svg>", "<svg/>more", "<svg><!-- </svg>"}) {
+    EXPECT_NE(read(broken).fault, "") << broken;
+  }
+  EXPECT_NE(tests::read_svg("<svg/>").fault, "");
 }
 
 TEST_F(Render, TellsWhatWasExpectedInOneLine) {

@@ -10,7 +10,6 @@
 #include "evolve/run/run_reader.h"
 #include "tests/evolve/files.h"
 #include "tests/evolve/runs.h"
-#include "tests/outcomes.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -22,10 +21,8 @@ using tests::lines_of;
 using tests::run_in_pieces;
 using tests::run_whole;
 using tests::TemporaryDirectory;
-using tests::text_of;
 using tests::tiny_experiment;
 
-constexpr int die_output = core::network_inputs + 2;
 constexpr SearchKind kinds[] = {SearchKind::simple, SearchKind::progressive, SearchKind::novelty};
 
 TEST(Run, RecordsWhatItWasAskedFor) {
@@ -47,18 +44,6 @@ TEST(Run, RecordsWhatItWasAskedFor) {
     // Progressive search runs larvae only in its first third, and one adult for the record.
     const std::size_t all = 6 * 12 * 2;
     EXPECT_EQ(tables["outcomes"].size(), kind == SearchKind::progressive ? all - 2 * 11 : all);
-  }
-}
-
-TEST(Run, ThreadsChangeNoBit) {
-  const TemporaryDirectory directory;
-  for (const SearchKind kind : kinds) {
-    const std::string name = std::to_string(static_cast<int>(kind));
-    const Experiment e = tiny_experiment(kind, 5);
-    run_whole(directory.path() / (name + "-1"), e, 1);
-    run_whole(directory.path() / (name + "-2"), e, 2);
-    EXPECT_EQ(contents(directory.path() / (name + "-1")),
-              contents(directory.path() / (name + "-2")));
   }
 }
 
@@ -242,81 +227,6 @@ TEST(Evaluator, RememberedResultsAreThoseOfAFreshEvaluation) {
         EXPECT_EQ(a[i].stages[t].cells, b[i].stages[t].cells);
       }
     }
-  }
-}
-
-std::string text_of(const Evaluated& one) {
-  std::string text =
-      fmt::format("{} {} {}", one.evaluation.penalty, one.evaluation.created, one.evaluation.died);
-  for (std::size_t t = 0; t < one.stages.size(); ++t) {
-    const StageCounts& stage = one.stages[t];
-    text += fmt::format(" [{} {} {} {}: {}]", one.evaluation.evaluated[t], stage.cells,
-                        stage.created, stage.died, text_of(one.evaluation.trials[t]));
-  }
-  return text;
-}
-
-std::int64_t bodies_in(const std::vector<Evaluated>& results) {
-  std::int64_t bodies = 0;
-  for (const Evaluated& one : results) {
-    for (const core::Outcome& outcome : one.evaluation.trials) bodies += outcome.cells > 0;
-  }
-  return bodies;
-}
-
-/// Genomes with others that grow the same: copies; copies with a hidden node that reaches no output
-/// (the same network); copies whose output "die" has another weight, too weak to matter (another
-/// network, the same bodies).
-std::vector<Genome> with_repetitions(const std::vector<Genome>& genomes) {
-  std::vector<Genome> all = genomes;
-  for (const Genome& genome : genomes) {
-    all.push_back(genome);
-    Genome dead_end = genome;
-    const int node = genome.nodes.back().id + 1, link = genome.links.back().innovation + 1;
-    dead_end.nodes.push_back({node, NodeKind::hidden});
-    dead_end.links.push_back({link, 0, node, 0.5});
-    all.push_back(dead_end);
-    Genome neutral = genome;
-    for (LinkGene& gene : neutral.links) {
-      if (gene.to == die_output) gene.weight *= 1 + 0x1p-20;
-    }
-    all.push_back(neutral);
-  }
-  return all;
-}
-
-TEST(Evaluator, ThreadsAndIdenticalWorkDoneOnceChangeNoBit) {
-  const Experiment e = tiny_experiment(SearchKind::simple, 2);
-  const std::vector<Genome> distinct = first_generation(e.neat, 5).genomes;
-  const std::vector<Genome> genomes = with_repetitions(distinct);
-  const std::vector<std::uint8_t> both = {1, 1};
-  EvaluationSeconds seconds;
-  const auto n = static_cast<std::int64_t>(distinct.size());
-  for (const int threads : {1, 2}) {
-    Evaluator evaluator(e, threads);
-    const auto results = evaluator.evaluate(genomes, both, 0, seconds);
-    for (std::size_t i = 0; i < genomes.size(); ++i) {
-      // A new evaluator and one genome: nothing there to be the same as.
-      EXPECT_EQ(text_of(results[i]),
-                text_of(Evaluator(e, 1).evaluate({&genomes[i], 1}, both, 0, seconds).front()))
-          << i;
-    }
-    EXPECT_EQ(evaluator.work().individuals, 4 * n);
-    EXPECT_EQ(evaluator.work().developed, 2 * n);  // the original and the neutral one
-    EXPECT_EQ(evaluator.work().bodies, bodies_in(results));
-    EXPECT_GT(evaluator.work().simulated, 0);
-    EXPECT_EQ(evaluator.work().simulated * 4, evaluator.work().bodies);
-
-    // In the next generation the originals are known, and so are the bodies of the neutral ones.
-    Evaluator other(e, threads);
-    other.evaluate(distinct, both, 0, seconds);
-    const auto later = other.evaluate(genomes, both, 0, seconds);
-    for (std::size_t i = 0; i < genomes.size(); ++i) {
-      EXPECT_EQ(text_of(later[i]), text_of(results[i])) << i;
-    }
-    EXPECT_EQ(other.work().developed, n);
-    EXPECT_EQ(other.work().bodies, bodies_in(later));
-    EXPECT_EQ(other.work().simulated, 0);
   }
 }
 

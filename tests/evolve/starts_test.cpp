@@ -273,18 +273,6 @@ TEST_F(StartsOfAGeneration, MayBeMany) {
   }
 }
 
-TEST(RunWithStarts, ThreadsChangeNoBit) {
-  const TemporaryDirectory directory;
-  for (const bool renew : {false, true}) {
-    const std::string name = renew ? "renewed" : "kept";
-    const Experiment e = tiny_with_starts(SearchKind::simple, 4, renew);
-    run_whole(directory.path() / (name + "-1"), e, 1);
-    run_whole(directory.path() / (name + "-2"), e, 2);
-    EXPECT_EQ(contents(directory.path() / (name + "-1")),
-              contents(directory.path() / (name + "-2")));
-  }
-}
-
 TEST(RunWithStarts, InterruptedAnywhereAndResumedIsTheSame) {
   const TemporaryDirectory directory;
   for (const SearchKind kind : {SearchKind::simple, SearchKind::progressive}) {

@@ -1,0 +1,50 @@
+# The tests of a file, read from the file: what decides their tier is where they stand.
+
+# Sets `result` to GoogleTest patterns, joined by ':', that match the tests of these files alone.
+# Tests with parameters have other names when they run: INSTANCE/Suite.Test/0 or Suite.Test/0,
+# typed ones Suite/0.Test.
+function(metamorph_patterns result)
+  set(patterns "")
+  foreach(file IN LISTS ARGN)
+    get_filename_component(path ${file} ABSOLUTE)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${path})
+    file(READ ${path} text)
+    set(text "\n${text}")
+    set(macros "TEST|TEST_F|TEST_P|TYPED_TEST|RC_GTEST_PROP|RC_GTEST_FIXTURE_PROP")
+    string(REGEX MATCHALL "\n(${macros})\\([ \n]*[A-Za-z0-9_]+,[ \n]*[A-Za-z0-9_]+" tests "${text}")
+    string(REGEX MATCHALL "\n *(RC_GTEST|TYPED_TEST_P|TYPED_TEST|TEST)[A-Z_]*\\(" all "${text}")
+    list(FILTER all EXCLUDE REGEX "TYPED_TEST_SUITE")
+    list(LENGTH tests found)
+    list(LENGTH all written)
+    if(NOT found EQUAL written OR found EQUAL 0)
+      message(FATAL_ERROR "${path}: ${written} tests, of which the names of ${found} can be read: "
+        "expected lines that begin with one of ${macros}")
+    endif()
+    foreach(test IN LISTS tests)
+      string(REGEX MATCH "\n([A-Z_]+)\\([ \n]*([A-Za-z0-9_]+),[ \n]*([A-Za-z0-9_]+)" test "${test}")
+      set(suite ${CMAKE_MATCH_2})
+      set(name ${CMAKE_MATCH_3})
+      if(CMAKE_MATCH_1 STREQUAL "TEST_P")
+        list(APPEND patterns "${suite}.${name}/*" "*/${suite}.${name}/*")
+      elseif(CMAKE_MATCH_1 STREQUAL "TYPED_TEST")
+        list(APPEND patterns "${suite}/*.${name}")
+      else()
+        list(APPEND patterns "${suite}.${name}")
+      endif()
+    endforeach()
+  endforeach()
+  list(JOIN patterns ":" joined)
+  set(${result} "${joined}" PARENT_SCOPE)
+endfunction()
+
+# An error for every *_test.cpp that no metamorph_test() lists.
+function(metamorph_require_lists)
+  file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *_test.cpp)
+  get_property(listed GLOBAL PROPERTY metamorph_listed)
+  list(REMOVE_ITEM files ${listed})
+  if(files)
+    list(JOIN files ", " names)
+    message(FATAL_ERROR "tests/CMakeLists.txt: ${names}: in none of SOURCES, THREADS, UNSANITIZED, "
+      "SLOW of a metamorph_test()")
+  endif()
+endfunction()
