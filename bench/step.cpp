@@ -35,7 +35,7 @@ void simulate(benchmark::State& state, const std::vector<Body>& bodies, const Sc
     failed += outcomes[i].failed_step >= 0;
   }
   report(state, counters, springs_steps, "spring-step");
-  if (scene.drag && !scene.ground) report_flop(state, flop);
+  if (scene.drag && !core::settles(scene)) report_flop(state, flop);
   state.counters["cells"] = outcomes.front().cells;
   state.counters["failed"] = failed;
 }

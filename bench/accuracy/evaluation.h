@@ -42,7 +42,7 @@ Measured evaluate(const core::Body& body, const core::Scene& scene,
                                 : core::Status::speed;
     return false;
   };
-  if (scene.ground) {
+  if (core::settles(scene)) {
     system.set_settling(true);
     const double h = scene.settle_step;
     const auto wanted = steps_in(scene.settle_quiet_steps, h);
@@ -68,7 +68,8 @@ Measured evaluate(const core::Body& body, const core::Scene& scene,
   }
   const auto end = system.mean_position();
   result.outcome.distance = core::travelled(scene.distance, end[0] - start[0], end[1] - start[1]);
-  result.outcome.mean_position = {end[0] - start[0], end[1] - (scene.ground ? 0 : start[1])};
+  result.outcome.mean_position = {end[0] - start[0],
+                                  end[1] - (core::measures_height(scene) ? 0 : start[1])};
   result.x = system.x;
   result.y = system.y;
   return finish();

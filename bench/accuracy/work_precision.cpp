@@ -32,8 +32,8 @@ struct Truth {
 // In water everything is smooth: RK4. On the ground its order is one, as friction is an impulse
 // between steps, and drift-kick-drift at a much smaller step is the better reference.
 Truth converge(const core::Body& body, const core::Scene& scene) {
-  const Method& truth = method(scene.ground ? "DKD float64" : "RK4");
-  const double step = scene.ground ? scene.step / 16 : scene.step / 4;
+  const Method& truth = method(core::has_impacts(scene) ? "DKD float64" : "RK4");
+  const double step = core::has_impacts(scene) ? scene.step / 16 : scene.step / 4;
   Truth result{truth.run(body, at_step(scene, step)), 0, 0};
   const Measured coarse = truth.run(body, at_step(scene, 2 * step));
   result.distance_bar =
@@ -43,7 +43,7 @@ Truth converge(const core::Body& body, const core::Scene& scene) {
 }
 
 std::vector<Ladder> ladders(const core::Scene& scene) {
-  if (!scene.ground) {
+  if (!core::has_impacts(scene)) {
     return {{"DKD float32", {0.3, 0.2, 0.1, 0.05, 0.025}},
             {"DKD float64", {0.3, 0.2, 0.1, 0.05, 0.025}},
             {"SE float32", {0.4, 0.2, 0.1, 0.05, 0.025}},

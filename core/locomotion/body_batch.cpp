@@ -168,7 +168,7 @@ void BodyBatch<T>::fill(std::size_t i, const LocomotionTask& task, const Plan& p
   const auto [left, right] = std::minmax_element(body.x.begin(), body.x.end());
   const auto [low, high] = std::minmax_element(body.y.begin(), body.y.end());
   const double middle_x = (*left + *right) / 2;
-  const double level = scene.ground ? *low : (*low + *high) / 2;
+  const double level = starts_on_ground(scene) ? *low : (*low + *high) / 2;
   origin_[i] = {middle_x, level};
   for (std::size_t lane = 0; lane < plan.order.size(); ++lane) {
     const std::size_t here = offset_[i].groups * width + lane, node = at(plan.order[lane]);

@@ -34,7 +34,7 @@ Outcome before_running(LocomotionTask& task, Method method, Scene& own) {
   }
   const Scene& scene = *task.scene;
   outcome.step = scene.step;
-  if (scene.ground) outcome.settle_step = scene.settle_step;
+  if (settles(scene)) outcome.settle_step = scene.settle_step;
   if (const auto refusal = refused_step(body, scene)) {
     outcome.status = refusal->status;
     outcome.failed_value = refusal->largest;
@@ -56,7 +56,7 @@ Outcome before_running(LocomotionTask& task, Method method, Scene& own) {
 /// Work to expect of a task, in any unit: longest first keeps the threads busy to the end.
 double expected_work(const LocomotionTask& task) {
   const double steps =
-      (task.scene->run_steps + (task.scene->ground ? 2000 : 0)) * paper_step / task.scene->step;
+      (task.scene->run_steps + (settles(*task.scene) ? 2000 : 0)) * paper_step / task.scene->step;
   return steps * static_cast<double>(task.body->springs.size());
 }
 

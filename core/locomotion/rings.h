@@ -8,7 +8,7 @@
 
 namespace metamorph::core {
 
-/// One place in a node's ring (see kernels/body_view.h).
+/// One place in a node's ring (see kernels/body_shape.h).
 struct RingSlot {
   Index neighbour;
   Index spring;    ///< index into Body::springs

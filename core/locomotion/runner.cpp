@@ -59,7 +59,7 @@ void Runner<T>::run(std::size_t i, const LocomotionTask& task, Outcome& outcome,
   if (scene_->self_collision) {
     collisions_.reset(*body_, *scene_, batch_, i);
   }
-  if (scene_->ground && !settle(outcome)) return;
+  if (settles(*scene_) && !settle(outcome)) return;
   actuate(outcome, every, observe);
 }
 
@@ -112,9 +112,9 @@ kernels::PairCounts Runner<T>::meet(T stiffness, T* fx, T* fy) {
 template <class T>
 bool Runner<T>::stop() {
   using Pack = kernels::Lanes<T>;
-  const kernels::StopStep<T> stop_step{coefficients_.step, T(1) / coefficients_.step,
-                                       coefficients_.extrapolate / coefficients_.step,
-                                       scene_->ground, coefficients_.friction};
+  const kernels::StopStep<T> stop_step{
+      coefficients_.step, T(1) / coefficients_.step, coefficients_.extrapolate / coefficients_.step,
+      terms_of(*scene_, actuation_).ground, coefficients_.friction};
   Pack speed2 = fastest2_, moved2 = fastest2_;
   for (int round = 0; round < most_rounds; ++round) {
     // What was pushed may be faster than all before, or elsewhere: then more may be near.
@@ -194,7 +194,8 @@ void Runner<T>::end_settling() {
   coefficients_ = coefficients_of<T>(*scene_, method_);
   for (int l = 0; l < shape_.nodes; ++l) {
     kernels::NodeRecord<T>& record = state_.now[l];
-    if (scene_->ground && coefficients_.extrapolate > 0) {  // which holds in half a step as well
+    if (terms_of(*scene_, actuation_).ground &&
+        coefficients_.extrapolate > 0) {  // which holds in half a step as well
       const T least = -std::max(record.y, T(0)) / coefficients_.extrapolate;
       record.vy = state_.vy[l] = std::max(state_.vy[l], least);
     }
@@ -234,7 +235,7 @@ void Runner<T>::actuate(Outcome& outcome, int every,
     if (observe && (n + 1) % every == 0) show(observe, n + 1);
   }
   const Mean end = mean_position();
-  outcome.mean_position = {end.x - start.x, scene.ground ? end.y : end.y - start.y};
+  outcome.mean_position = {end.x - start.x, measures_height(scene) ? end.y : end.y - start.y};
   outcome.distance = travelled(scene.distance, end.x - start.x, end.y - start.y);
 }
 
@@ -269,7 +270,7 @@ void Runner<T>::show(const std::function<void(const Frame&)>& observe, std::int6
   for (int l = 0; l < shape_.nodes; ++l) {
     const auto node = static_cast<std::size_t>(lanes[static_cast<std::size_t>(l)]);
     frame_[0][node] = position_x(l) + origin[0];
-    frame_[1][node] = position_y(l) + (scene_->ground ? 0 : origin[1]);
+    frame_[1][node] = position_y(l) + (starts_on_ground(*scene_) ? 0 : origin[1]);
     frame_[2][node] = static_cast<double>(state_.vx[l]);
     frame_[3][node] = static_cast<double>(state_.vy[l]);
   }

@@ -17,6 +17,12 @@ double travelled(DistanceRule rule, double dx, double dy) {
   return 0;
 }
 
+bool settles(const Scene& scene) { return scene.ground; }
+bool starts_on_ground(const Scene& scene) { return scene.ground; }
+bool measures_height(const Scene& scene) { return scene.ground; }
+bool has_impacts(const Scene& scene) { return scene.ground; }
+bool shows_ground(const Scene& scene) { return scene.ground; }
+
 Scene water_scene() { return {}; }
 
 Scene land_scene() {

@@ -159,14 +159,14 @@ StepPhase step_phase(const Scene& scene, Method method, bool settling) {
   if (settling) {
     return {scene.settle_step, scene.settle_damping, Method::symplectic_euler, settling_margin};
   }
-  return {scene.step, scene.damping, method, scene.ground ? land_margin : water_margin};
+  return {scene.step, scene.damping, method, has_impacts(scene) ? land_margin : water_margin};
 }
 
 StepFinding assess_steps(const Body& body, const Scene& scene, Method method) {
   const Linearised linear(body, scene);
   StepFinding worst;
   for (const bool settling : {false, true}) {
-    if (settling && !scene.ground) continue;
+    if (settling && !settles(scene)) continue;
     const StepPhase phase = step_phase(scene, method, settling);
     const double wanted = phase.step / phase.margin;
     // Most steps stay far below the margin, which shows long before the limit is known.

@@ -19,7 +19,7 @@ bool is_step(double step, int paper_steps) {
 
 std::optional<StepRefusal> refused_step(const Body& body, const Scene& scene) {
   if (!is_step(scene.step, scene.run_steps) ||
-      (scene.ground && !is_step(scene.settle_step, scene.settle_max_steps))) {
+      (settles(scene) && !is_step(scene.settle_step, scene.settle_max_steps))) {
     return StepRefusal{Status::bad_input, 0, -1};
   }
   const double duration = scene.run_steps * paper_step;

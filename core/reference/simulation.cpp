@@ -65,11 +65,11 @@ class Evaluation {
         settle_h_(scene.settle_step * (h_ / scene.step)),
         outcome_(describe(body)) {
     outcome_.step = h_;
-    if (scene_.ground) outcome_.settle_step = settle_h_;
+    if (settles(scene_)) outcome_.settle_step = settle_h_;
   }
 
   Outcome run() {
-    if (scene_.ground && !settle()) return outcome_;
+    if (settles(scene_) && !settle()) return outcome_;
     const std::array<double, 2> start = system_.mean_position();
     observe(0);
     const std::int64_t steps = steps_in(scene_.run_steps, h_);
@@ -82,7 +82,7 @@ class Evaluation {
     const double dx = end[0] - start[0];
     const double dy = end[1] - start[1];
     outcome_.distance = travelled(scene_.distance, dx, dy);
-    outcome_.mean_position = {dx, scene_.ground ? end[1] : dy};
+    outcome_.mean_position = {dx, measures_height(scene_) ? end[1] : dy};
     return outcome_;
   }
 
@@ -191,7 +191,7 @@ Outcome simulate_reference(const Body& body, const Scene& scene, const Reference
   if (const auto refusal = refused_step(body, taken)) {
     refused.status = refusal->status;
     refused.step = taken.step;
-    if (scene.ground) refused.settle_step = taken.settle_step;
+    if (settles(scene)) refused.settle_step = taken.settle_step;
     refused.failed_value = refusal->largest;
     refused.failed_index = refusal->node;
     refused.failed_step = 0;

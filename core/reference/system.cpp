@@ -28,6 +28,8 @@ ReferenceSystem::ReferenceSystem(const Body& body, const Scene& scene)
   if (scene.ground) {
     const double slope = scene.slope_degrees * std::numbers::pi / 180;
     gravity_ = {-scene.gravity * std::sin(slope), -scene.gravity * std::cos(slope)};
+  }
+  if (starts_on_ground(scene)) {
     const double lowest = *std::min_element(y.begin(), y.end());
     for (double& height : y) height -= lowest;
   }

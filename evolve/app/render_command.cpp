@@ -122,7 +122,7 @@ const Trial& trial_of(const Subject& subject, const std::string& name) {
 
 Sheet motion_of_body(const core::Body& body, const core::Scene& scene,
                      const core::LocomotionOptions& locomotion, int count) {
-  return motion_sheet(body, last_cycle(body, scene, locomotion, count), scene.ground);
+  return motion_sheet(body, last_cycle(body, scene, locomotion, count), core::shows_ground(scene));
 }
 
 Sheet motion_of(const Subject& subject, const RenderOptions& options) {

@@ -132,7 +132,7 @@ void tell_work(const std::vector<Animat>& animats, const core::Scene& scene,
     if (animat.status != core::Status::ok || !core::check(animat.body).empty()) continue;
     const core::Scene own = core::with_chosen_steps(animat.body, scene, options.method);
     double steps = own.run_steps * core::paper_step / own.step;
-    if (own.ground) steps += own.settle_quiet_steps * core::paper_step / own.settle_step;
+    if (core::settles(own)) steps += own.settle_quiet_steps * core::paper_step / own.settle_step;
     most_steps = std::max(most_steps, steps);
     spring_steps += steps * static_cast<double>(animat.body.springs.size());
     ++bodies;

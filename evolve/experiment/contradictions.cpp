@@ -64,7 +64,7 @@ std::vector<Contradiction> contradictions(const Experiment& e) {
   for (const NamedScene& named : e.scenes) {
     const core::Scene& scene = named.scene;
     const std::string path = "scenes." + scene.name;
-    if (scene.ground) {
+    if (core::settles(scene)) {
       at_most(found, path + ".settle_quiet_steps", scene.settle_quiet_steps,
               path + ".settle_max_steps", scene.settle_max_steps);
     }

@@ -80,7 +80,7 @@ void compare(TrialAudit& audited, const Champion& champion, const Experiment& ex
   audited.replay_deviation =
       relative_deviation(audited.replay.distance, audited.reference.distance);
   const core::Scene& scene = experiment.scene_of(trial);
-  if ((scene.ground || options.nearby_in_water) && options.nearby_starts > 0) {
+  if ((core::has_impacts(scene) || options.nearby_in_water) && options.nearby_starts > 0) {
     const auto nearby = [&](double displacement) {
       return run_nearby_starts(extraction.body, scene, experiment.locomotion.method,
                                options.nearby_starts, displacement);

@@ -25,7 +25,7 @@ Sheet individual_sheet(const Experiment& experiment, const Genome& genome,
     stage.body = core::extract_body(stage.embryo, experiment.min_cells).body;
     if (t < trials.size()) stage.outcome = trials[t];
     stage.scene = trial.scene;
-    stage.ground = experiment.scene_of(trial).ground;
+    stage.ground = core::shows_ground(experiment.scene_of(trial));
     stages.push_back(std::move(stage));
   }
   // One stage knows no metamorphosis: no cell is drawn as born after it.

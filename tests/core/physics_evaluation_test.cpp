@@ -167,7 +167,8 @@ TEST_P(Evaluation, OutcomesSayWhatWasSeen) {
     const double dx = mean(last.x) - mean(first.x), dy = mean(last.y) - mean(first.y);
     const double rounding = 64 * GetParam().round_off;
     EXPECT_TRUE(within(outcome.mean_position[0] - dx, rounding));
-    EXPECT_TRUE(within(outcome.mean_position[1] - (scene.ground ? mean(last.y) : dy), rounding));
+    EXPECT_TRUE(within(
+        outcome.mean_position[1] - (core::measures_height(scene) ? mean(last.y) : dy), rounding));
     const double distance = scene.name == "water"  ? std::hypot(dx, dy)
                             : scene.name == "land" ? std::fabs(dx)
                                                    : std::max(dx, 0.0);
@@ -176,7 +177,7 @@ TEST_P(Evaluation, OutcomesSayWhatWasSeen) {
     EXPECT_EQ(outcome.springs, static_cast<int>(body.springs.size()));
     EXPECT_EQ(outcome.triangles, static_cast<int>(body.triangles.size()));
     EXPECT_EQ(outcome.steps, std::lround(outcome.settle_time / scene.settle_step) + steps);
-    if (scene.ground) {
+    if (core::settles(scene)) {
       EXPECT_GE(outcome.settle_time, scene.settle_quiet_steps * core::paper_step);
     } else {
       EXPECT_EQ(outcome.settle_time, 0);

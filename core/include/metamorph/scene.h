@@ -34,7 +34,7 @@ struct Scene {
   double drag_tangential = 0.01;  ///< d_T
 
   // Land.
-  bool ground = false;         ///< gravity, solid ground at y = 0 and friction
+  bool ground = false;         ///< gravity, solid ground at y = 0 and friction (see settles() ...)
   double gravity = 0.02;       ///< g
   double slope_degrees = 0.0;  ///< gravity is turned by this angle; +x is uphill
   double friction = 0.8;       ///< mu
@@ -64,6 +64,21 @@ struct Scene {
 
 /// Distance by a rule of a displacement (dx, dy), d.
 double travelled(DistanceRule rule, double dx, double dy);
+
+// What a scene asks of an evaluation beyond its forces. As scenes are, all of it comes with the
+// ground; who needs one of these asks for that one, not for the ground.
+
+/// The body comes to rest before it is actuated.
+bool settles(const Scene& scene);
+/// It is lowered or lifted at the start until its lowest node is at y = 0.
+bool starts_on_ground(const Scene& scene);
+/// Outcome::mean_position counts y from y = 0, not from where actuation began.
+bool measures_height(const Scene& scene);
+/// Bodies hit something: steps need the wider margin (stability.h), motion is not smooth, and near
+/// starts may part.
+bool has_impacts(const Scene& scene);
+/// Pictures show the ground.
+bool shows_ground(const Scene& scene);
 
 inline constexpr double paper_step = 0.2;  ///< time units
 

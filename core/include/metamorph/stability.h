@@ -51,7 +51,7 @@ struct StepFinding {
   bool settling = false;  ///< it is the step of settling
 };
 
-/// The worse of the scene's steps (of the run, and of settling where there is ground) for this
+/// The worse of the scene's steps (of the run, and of settling where the scene settles) for this
 /// body. Cheap: the sharp limit is looked at only where row sums do not already decide.
 StepFinding assess_steps(const Body& body, const Scene& scene, Method method);
 
