@@ -173,7 +173,7 @@ void infer(benchmark::State& state) {
   std::vector<std::vector<T>> values;
   double links = 0;
   for (const core::Network& network : networks) {
-    const int slots = core::network_inputs + network.node_count();
+    const int slots = network.inputs + network.node_count();
     values.emplace_back(static_cast<std::size_t>(kernels::network_value_size(slots, cells)),
                         T(0.3));
     links += static_cast<double>(network.source.size());
@@ -182,10 +182,9 @@ void infer(benchmark::State& state) {
   for (auto _ : state) {
     for (std::size_t i = 0; i < networks.size(); ++i) {
       const core::Network& network = networks[i];
-      kernels::infer_network<T>(
-          {core::network_inputs, network.node_count(), network.first_link.data(),
-           network.source.data(), network.weight.data()},
-          cells, values[i].data());
+      kernels::infer_network<T>({network.inputs, network.node_count(), network.first_link.data(),
+                                 network.source.data(), network.weight.data()},
+                                cells, values[i].data());
     }
     benchmark::ClobberMemory();
   }

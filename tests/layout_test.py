@@ -26,7 +26,7 @@ CORE_MAY_INCLUDE = {
 }
 PUBLIC_OF_CORE = {
     "body": ("body", "status", "threads"),
-    "development": ("development", "extraction", "network"),
+    "development": ("development", "extraction", "network", "signals"),
     "locomotion": ("automatic_step", "locomotion", "motion", "outcome", "outcome_fields",
                    "scene", "stability", "step_refusal"),
     "reference": ("reference",),

@@ -36,6 +36,7 @@ class Developer {
         mechanics_{static_cast<T>(rules.step), static_cast<T>(rules.stiffness),
                    static_cast<T>(rules.damping), static_cast<T>(rules.drag)},
         colony_(rules.max_cells),
+        control_(rules_),
         neighbourhood_(sizeof(kernels::NodeRecord<T>)),
         stage_neighbourhood_(sizeof(kernels::NodeRecord<T>)),
         next_x_(colony_.cell.size()),
@@ -94,18 +95,17 @@ class Developer {
 
   /// One update of the control network. True if cells were born or died.
   bool update(int step) {
-    using C = Control<T>;
-    control_.evaluate(rules_, step, colony_, neighbourhood_);
+    control_.evaluate(step, colony_, neighbourhood_);
     for (int i = 0; i < colony_.count; ++i) {
-      turned_heading(colony_, neighbourhood_, i, control_(C::angle, i), next_x_[at(i)],
+      turned_heading(colony_, neighbourhood_, i, control_(Output::angle, i), next_x_[at(i)],
                      next_y_[at(i)]);
-      willing_[at(i)] = control_(C::inhibit, i) <= T(0);
+      willing_[at(i)] = control_(Output::inhibit, i) <= T(0);
     }
     for (int i = 0; i < colony_.count; ++i) {
-      colony_.morphogen1[at(i)] = control_(C::morphogen1, i);
-      colony_.morphogen2[at(i)] = control_(C::morphogen2, i);
+      colony_.morphogen1[at(i)] = control_(Output::morphogen_1, i);
+      colony_.morphogen2[at(i)] = control_(Output::morphogen_2, i);
     }
-    bool changed = colony_.remove_if([&](int i) { return control_(C::die, i) > T(0); },
+    bool changed = colony_.remove_if([&](int i) { return control_(Output::die, i) > T(0); },
                                      [&](int from, int to) {
                                        next_x_[at(to)] = next_x_[at(from)];
                                        next_y_[at(to)] = next_y_[at(from)];
@@ -156,13 +156,12 @@ class Developer {
   }
 
   Embryo embryo(int step) {
-    using C = Control<T>;
     // Between two renewals development goes on with the neighbours of the earlier one.
     const bool renewal_due = step % rules_.renew_interval == 0;
     if (!renewal_due) stage_neighbourhood_ = neighbourhood_;
     Neighbourhood& neighbourhood = renewal_due ? neighbourhood_ : stage_neighbourhood_;
     renew(step, neighbourhood);
-    control_.evaluate(rules_, step, colony_, neighbourhood);
+    control_.evaluate(step, colony_, neighbourhood);
     Embryo embryo;
     embryo.step = step;
     embryo.status = colony_.count == 0 && status_ == Status::ok ? Status::empty : status_;
@@ -179,9 +178,10 @@ class Developer {
     embryo.y = y_;
     for (int i = 0; i < colony_.count; ++i) {
       embryo.orientation.push_back(angle_of(colony_.heading_x[at(i)], colony_.heading_y[at(i)]));
-      const double share = std::clamp(static_cast<double>(control_(C::period, i)) + 0.5, 0.0, 1.0);
+      const double share =
+          std::clamp(static_cast<double>(control_(Output::period, i)) + 0.5, 0.0, 1.0);
       embryo.period.push_back(rules_.period_min + share * (rules_.period_max - rules_.period_min));
-      embryo.phase.push_back(std::numbers::pi * static_cast<double>(control_(C::phase, i)));
+      embryo.phase.push_back(std::numbers::pi * static_cast<double>(control_(Output::phase, i)));
     }
     embryo.links = neighbourhood.links();
     embryo.faces = neighbourhood.faces();

@@ -19,6 +19,8 @@ void for_each_network(std::span<const Network> networks, const DevelopmentRules&
                       [[maybe_unused]] std::span<const int> stages, int threads,
                       const Develop& develop) {
   assert(std::is_sorted(stages.begin(), stages.end()));
+  assert(std::all_of(networks.begin(), networks.end(),
+                     [&](const Network& network) { return check(network, rules).empty(); }));
   assert(stages.empty() || (stages.front() >= 0 && stages.back() <= rules.steps));
   const auto count = static_cast<std::ptrdiff_t>(networks.size());
 #pragma omp parallel num_threads(thread_count(threads))

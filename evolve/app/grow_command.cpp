@@ -14,6 +14,7 @@
 #include "core/development/link_check.h"
 #include "evolve/app/commands.h"
 #include "evolve/app/options.h"
+#include "evolve/app/rules_options.h"
 #include "evolve/files/body_file.h"
 #include "evolve/files/embryo_file.h"
 #include "evolve/files/genome_file.h"
@@ -30,10 +31,9 @@ namespace fs = std::filesystem;
 
 struct GrowOptions {
   std::string genome;
-  core::DevelopmentRules rules;
-  int min_cells = 8;
-  std::vector<int> at;  ///< empty: half and whole development
-  int larva_steps = 0;  ///< 0: half
+  RulesOptions rules;
+  std::vector<int> at;  ///< empty: the stages of the experiment
+  int larva_steps = 0;  ///< 0: the first stage
   std::string out;      ///< empty: named after the genome
   std::string picture = "svg";
   bool overwrite = false;
@@ -49,27 +49,13 @@ struct Grown {
   fs::path body_file;  ///< written where there is a body
 };
 
-/// The requested steps, ascending, each once.
-std::vector<int> steps_of(const GrowOptions& options) {
-  std::vector<int> steps = options.at;
-  if (steps.empty()) steps = {options.rules.steps / 2, options.rules.steps};
-  std::sort(steps.begin(), steps.end());
-  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
-  if (steps.front() < 0 || steps.back() > options.rules.steps) {
-    throw InputError(fmt::format("--at: {}: expected steps from 0 to {}, the end of development",
-                                 steps.front() < 0 ? steps.front() : steps.back(),
-                                 options.rules.steps));
-  }
-  return steps;
-}
-
-std::vector<Grown> grow(const core::Network& network, const GrowOptions& options,
+std::vector<Grown> grow(const core::Network& network, const Experiment& experiment,
                         const std::vector<int>& steps, const fs::path& out) {
-  auto embryos = core::develop({&network, 1}, options.rules, steps, 1);
+  auto embryos = core::develop({&network, 1}, experiment.development, steps, 1);
   std::vector<Grown> result;
   for (core::Embryo& embryo : embryos.front()) {
     Grown grown;
-    grown.extraction = core::extract_body(embryo, options.min_cells);
+    grown.extraction = core::extract_body(embryo, experiment.min_cells);
     grown.embryo_file = out / fmt::format("embryo-{:04}.json", embryo.step);
     grown.body_file = out / fmt::format("body-{:04}.json", embryo.step);
     grown.embryo = std::move(embryo);
@@ -119,16 +105,18 @@ void print(const std::vector<Grown>& all, bool as_json) {
 }
 
 void grow_command(const GrowOptions& options) {
-  const Genome genome = read_genome(options.genome);
+  const Experiment experiment = experiment_of(options.rules);
+  const Genome genome = read_genome(options.genome, experiment.development);
   const fs::path out =
       options.out.empty() ? fs::path(options.genome).stem() : fs::path(options.out);
-  const core::Network network = compile(genome);
-  const std::vector<int> steps = steps_of(options);
+  const core::Network network = compile(genome, shape_of(experiment.development));
+  const std::vector<int> steps =
+      steps_at(experiment, options.at.empty() ? experiment.stages() : options.at);
   core::LinkCheck check;
   if (options.check_links)
-    check = core::check_links({&network, 1}, options.rules, steps, 1).front();
+    check = core::check_links({&network, 1}, experiment.development, steps, 1).front();
   if (!check.ok()) throw std::runtime_error(options.genome + ": " + difference_text(check));
-  const std::vector<Grown> all = grow(network, options, steps, out);
+  const std::vector<Grown> all = grow(network, experiment, steps, out);
   const fs::path picture = out / ("development." + options.picture);
   const bool with_picture = options.picture != "none";
 
@@ -162,7 +150,8 @@ void grow_command(const GrowOptions& options) {
       write_body(grown.body_file, grown.extraction.body, overwrite);
     }
   }
-  const int larva_steps = options.larva_steps > 0 ? options.larva_steps : options.rules.steps / 2;
+  const int larva_steps =
+      options.larva_steps > 0 ? options.larva_steps : larva_steps_of(experiment);
   if (with_picture) draw(all, larva_steps, picture);
   print(all, options.json);
   if (with_picture && !options.json) fmt::print("picture: {}\n", picture.string());
@@ -183,7 +172,7 @@ void add_grow_command(CLI::App& app) {
       ->option_text("GENOME.json");
   command->add_option("--at", options->at, "Steps to write, separated by commas")
       ->delimiter(',')
-      ->option_text("STEP,... [half and whole development]");
+      ->option_text("STEP,... [the stages of the experiment]");
   command
       ->add_option("--out", options->out,
                    "Directory for embryo-STEP.json, body-STEP.json and the picture")
@@ -195,8 +184,8 @@ void add_grow_command(CLI::App& app) {
       ->add_option("--larva-steps", options->larva_steps,
                    "Cells born from this step on are drawn red")
       ->check(integer_from(1, 1000000))
-      ->option_text("STEP [half of development]");
-  add_development_options(*command, options->rules, options->min_cells);
+      ->option_text("STEP [the first stage, if there are several]");
+  add_rules_options(*command, options->rules);
   command->add_flag("--overwrite", options->overwrite, "Replace files that exist");
   command->add_flag("--json", options->json, "Print one JSON object per step instead of a table");
   command->add_flag("--check-links", options->check_links,

@@ -5,11 +5,12 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "evolve/app/commands.h"
 #include "evolve/app/options.h"
-#include "evolve/experiment/experiment_file.h"
+#include "evolve/app/rules_options.h"
 #include "evolve/files/animat_file.h"
 #include "evolve/files/body_file.h"
 #include "evolve/files/genome_file.h"
@@ -28,9 +29,7 @@ struct RenderOptions {
   std::string source;
   std::string out;
   std::string kind = "animat";
-  std::string experiment;  ///< empty: larva in water, adult on land
-  std::string trial;       ///< empty: the first
-  std::string scene = "water";
+  RulesOptions rules;
   int generation = -1;  ///< of a run; -1: the best of all
   int snapshots = 8;
   std::vector<int> at;  ///< empty: six steps
@@ -44,13 +43,6 @@ struct Subject {
   std::string heading;
   int generation = 0;  ///< whose starts the outcomes shown are of
 };
-
-Experiment water_to_land() {
-  Experiment experiment;
-  experiment.scenes = {{"water", core::water_scene()}, {"land", core::land_scene()}};
-  experiment.trials = {{"larva", 600, "water"}, {"adult", 1200, "land"}};
-  return experiment;
-}
 
 Subject subject_of_run(const RenderOptions& options) {
   const RunReader run(options.source);
@@ -66,8 +58,10 @@ Subject subject_of_run(const RenderOptions& options) {
 }
 
 Subject subject_of_genome(const RenderOptions& options) {
-  return {options.experiment.empty() ? water_to_land() : read_experiment(options.experiment),
-          read_genome(options.source), std::filesystem::path(options.source).stem().string()};
+  Experiment experiment = experiment_of(options.rules);
+  Genome genome = read_genome(options.source, experiment.development);
+  return {std::move(experiment), std::move(genome),
+          std::filesystem::path(options.source).stem().string()};
 }
 
 std::vector<core::Outcome> outcomes_of(const Subject& subject) {
@@ -78,46 +72,27 @@ std::vector<core::Outcome> outcomes_of(const Subject& subject) {
 }
 
 std::vector<core::Embryo> embryos_of(const Subject& subject, const std::vector<int>& steps) {
-  const core::Network network = compile(subject.genome);
+  const core::Network network = compile(subject.genome, shape_of(subject.experiment.development));
   return core::develop({&network, 1}, subject.experiment.development, steps, 1).front();
 }
 
-/// The requested steps, ascending, each once; without a request six, the stages among them.
-std::vector<int> steps_of(const Subject& subject, std::vector<int> steps) {
-  const int end = subject.experiment.development.steps;
-  if (steps.empty()) {
-    for (int k = 1; k <= 6; ++k) steps.push_back(end * k / 6);
-  }
-  std::sort(steps.begin(), steps.end());
-  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
-  if (steps.front() < 0 || steps.back() > end) {
-    throw InputError(fmt::format("--at: {}: expected steps from 0 to {}, the end of development",
-                                 steps.front() < 0 ? steps.front() : steps.back(), end));
-  }
+/// Six steps, the stages among them where they are sixths.
+std::vector<int> six_steps(int end) {
+  std::vector<int> steps;
+  for (int k = 1; k <= 6; ++k) steps.push_back(end * k / 6);
   return steps;
 }
 
 Sheet development_of(const Subject& subject, const RenderOptions& options) {
-  const std::vector<core::Embryo> embryos = embryos_of(subject, steps_of(subject, options.at));
+  const Experiment& experiment = subject.experiment;
+  const std::vector<core::Embryo> embryos = embryos_of(
+      subject, steps_at(experiment,
+                        options.at.empty() ? six_steps(experiment.development.steps) : options.at));
   std::vector<core::Body> bodies;
   for (const core::Embryo& embryo : embryos) {
-    bodies.push_back(core::extract_body(embryo, subject.experiment.min_cells).body);
+    bodies.push_back(core::extract_body(embryo, experiment.min_cells).body);
   }
-  const std::vector<int> stages = subject.experiment.stages();
-  return development_sheet(
-      embryos, bodies,
-      stages.size() > 1 ? stages.front() : subject.experiment.development.steps + 1);
-}
-
-const Trial& trial_of(const Subject& subject, const std::string& name) {
-  const std::vector<Trial>& trials = subject.experiment.trials;
-  if (name.empty()) return trials.front();
-  for (const Trial& trial : trials) {
-    if (trial.name == name) return trial;
-  }
-  std::vector<std::string> names;
-  for (const Trial& trial : trials) names.push_back(trial.name);
-  throw InputError(fmt::format("--trial: {}: expected {}", name, fmt::join(names, " or ")));
+  return development_sheet(embryos, bodies, larva_steps_of(experiment));
 }
 
 Sheet motion_of_body(const core::Body& body, const core::Scene& scene,
@@ -126,18 +101,16 @@ Sheet motion_of_body(const core::Body& body, const core::Scene& scene,
 }
 
 Sheet motion_of(const Subject& subject, const RenderOptions& options) {
-  const Trial& trial = trial_of(subject, options.trial);
+  const Trial* named = trial_of(subject.experiment, options.rules);
+  const Trial& trial = named == nullptr ? subject.experiment.trials.front() : *named;
   const core::Embryo embryo = embryos_of(subject, {trial.stage}).front();
   const core::Extraction extraction = core::extract_body(embryo, subject.experiment.min_cells);
   if (extraction.status != core::Status::ok) {
     throw InputError(
         fmt::format("{}: the {} has no body that could move", options.source, trial.name));
   }
-  core::LocomotionOptions locomotion;
-  locomotion.precision = subject.experiment.locomotion.precision;
-  locomotion.method = subject.experiment.locomotion.method;
-  Sheet sheet = motion_of_body(extraction.body, subject.experiment.scene_of(trial), locomotion,
-                               options.snapshots);
+  Sheet sheet = motion_of_body(extraction.body, subject.experiment.scene_of(trial),
+                               locomotion_of(subject.experiment), options.snapshots);
   sheet.remark = fmt::format("{}: last cycle, scene {}, time in steps", trial.name, trial.scene);
   return sheet;
 }
@@ -168,14 +141,16 @@ Sheet sheet_of(const Subject& subject, const RenderOptions& options) {
 }
 
 Sheet sheet_of_body(const RenderOptions& options) {
+  const Experiment experiment = experiment_of(options.rules);
   const core::Body body = read_body(options.source);
   Sheet sheet;
   if (options.kind == "development") {
     throw InputError("--kind: development: expected animat, motion or phase for a body");
   }
   if (options.kind == "motion") {
-    sheet = motion_of_body(body, scene_named(options.scene), {}, options.snapshots);
-    sheet.remark = fmt::format("last cycle, scene {}, time in steps", options.scene);
+    const core::Scene scene = scene_of(experiment, options.rules);
+    sheet = motion_of_body(body, scene, locomotion_of(experiment), options.snapshots);
+    sheet.remark = fmt::format("last cycle, scene {}, time in steps", scene.name);
   } else if (options.kind == "phase") {
     sheet.legend = Legend::phase;
     sheet.rows = {{phase_panel(body)}};
@@ -192,17 +167,35 @@ bool is_run(const std::filesystem::path& source) {
   return std::filesystem::is_directory(source) || source.extension() == ".db";
 }
 
+/// Options that say nothing about such a source; each gets its line.
+void refuse(const std::vector<std::pair<const char*, bool>>& options, const std::string& why) {
+  std::vector<std::string> faults;
+  for (const auto& [name, is_given] : options) {
+    if (is_given) faults.push_back(fmt::format("{}: {}", name, why));
+  }
+  if (!faults.empty()) throw InputError(faults);
+}
+
 void render(const RenderOptions& options) {
   if (!is_picture_file(options.out)) {
     throw InputError("--out: " + options.out + ": expected a name that ends in .svg, .png or .pdf");
   }
   check_writable(options.out, options.overwrite ? Overwrite::yes : Overwrite::no);
   Sheet sheet;
+  const RulesOptions& rules = options.rules;
   if (is_run(options.source)) {
+    refuse({{"--experiment", !rules.experiment.empty()},
+            {"--set", !rules.set.empty()},
+            {"--scene", !rules.scene.empty()}},
+           "not together with a run, which is shown by its own rules");
     sheet = sheet_of(subject_of_run(options), options);
   } else if (format_of(std::filesystem::path(options.source)) == body_format) {
+    refuse({{"--generation", options.generation >= 0}}, "expected a run, not a body");
     sheet = sheet_of_body(options);
   } else {
+    refuse({{"--generation", options.generation >= 0}}, "expected a run, not a genome");
+    refuse({{"--scene", !rules.scene.empty()}},
+           "expected a body: a genome moves in the scene of its trial (--trial)");
     sheet = sheet_of(subject_of_genome(options), options);
   }
   write_sheet(sheet, options.out);
@@ -233,19 +226,14 @@ void add_render_command(CLI::App& app) {
   command->add_option("--generation", options->generation, "Of a run: the best of this generation")
       ->check(integer_from(0, 100000000))
       ->option_text("N [best of all]");
-  command
-      ->add_option("--experiment", options->experiment,
-                   "Of a genome: the experiment that says how it develops and where it moves")
-      ->option_text("FILE.toml [larva in water, adult on land]");
+  add_rules_options(*command, options->rules);
+  add_trial_options(*command, options->rules);
   command->add_option("--at", options->at, "Of development: steps, separated by commas")
       ->delimiter(',')
       ->option_text("STEP,... [six]");
-  command->add_option("--trial", options->trial, "Of motion: which stage moves (larva, adult, ...)")
-      ->option_text("NAME [the first]");
   command->add_option("--snapshots", options->snapshots, "Of motion: how many")
       ->check(integer_from(1, 64))
       ->option_text("N [8]");
-  add_scene_option(*command, options->scene);
   command->add_flag("--overwrite", options->overwrite, "Replace a file that exists");
   command->callback([options] { render(*options); });
 }

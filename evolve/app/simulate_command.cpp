@@ -10,6 +10,7 @@
 
 #include "evolve/app/commands.h"
 #include "evolve/app/options.h"
+#include "evolve/app/rules_options.h"
 #include "evolve/app/text.h"
 #include "evolve/files/animat_file.h"
 #include "evolve/files/input_error.h"
@@ -27,38 +28,41 @@ namespace {
 
 struct SimulateOptions {
   std::vector<std::string> inputs;
-  std::string scene = "water";
-  std::string step;  ///< "": the scene's own; a number or "auto"
-  int run_steps = 3000;
-  core::LocomotionOptions locomotion;
-  BodyChoice choice;
-  int stage = 0;  ///< 0: the end of development
+  RulesOptions rules;
+  std::string step;   ///< "": the scene's own; a number or "auto"
+  int run_steps = 0;  ///< 0: the scene's own
+  int stage = 0;      ///< 0: the trial's, or the end of development
+  int threads = 0;
   std::string trajectory;
   int every = 0;  ///< 0: one paper step
   bool overwrite = false;
   bool json = false;
 };
 
-core::Scene scene_of(const SimulateOptions& options) {
-  core::Scene scene = scene_named(options.scene);
+core::Scene scene_to_run(const Experiment& experiment, const SimulateOptions& options) {
+  core::Scene scene = scene_of(experiment, options.rules);
   if (options.step == "auto") {
     scene.step = scene.settle_step = core::automatic_step;
   } else if (!options.step.empty()) {
     scene.step = std::stod(options.step);
   }
-  scene.run_steps = options.run_steps;
+  if (options.run_steps > 0) scene.run_steps = options.run_steps;
   return scene;
 }
 
-std::vector<Animat> animats_of(const SimulateOptions& options) {
-  BodyChoice choice = options.choice;
-  choice.stage = options.stage > 0 ? options.stage : choice.rules.steps;
+std::vector<Animat> animats_of(const Experiment& experiment, const SimulateOptions& options) {
+  BodyChoice choice;
+  choice.rules = experiment.development;
+  choice.min_cells = experiment.min_cells;
+  const Trial* trial = trial_of(experiment, options.rules);
+  choice.stage = trial == nullptr ? choice.rules.steps : trial->stage;
+  if (options.stage > 0) choice.stage = options.stage;
   if (choice.stage > choice.rules.steps) {
     throw InputError(fmt::format("--stage: {}: expected at most {}, the end of development",
                                  choice.stage, choice.rules.steps));
   }
   const std::vector<std::filesystem::path> paths(options.inputs.begin(), options.inputs.end());
-  return read_animats(paths, choice, options.locomotion.threads);
+  return read_animats(paths, choice, options.threads);
 }
 
 core::Outcome without_body(core::Status status) {
@@ -144,13 +148,14 @@ void tell_work(const std::vector<Animat>& animats, const core::Scene& scene,
 }
 
 core::Outcome simulate_with_trajectory(const Animat& animat, const core::Scene& given,
+                                       const core::LocomotionOptions& locomotion,
                                        const SimulateOptions& options) {
   if (animat.status != core::Status::ok) return without_body(animat.status);
-  const core::Scene scene = core::with_chosen_steps(animat.body, given, options.locomotion.method);
+  const core::Scene scene = core::with_chosen_steps(animat.body, given, locomotion.method);
   TrajectoryWriter writer(options.trajectory, options.overwrite ? Overwrite::yes : Overwrite::no);
   const int paper_step = std::max(1, static_cast<int>(std::lround(core::paper_step / scene.step)));
   const core::Outcome outcome = core::simulate_observed(
-      {&animat.body, &scene}, options.locomotion, options.every > 0 ? options.every : paper_step,
+      {&animat.body, &scene}, locomotion, options.every > 0 ? options.every : paper_step,
       [&](const core::Frame& frame) { writer.write(frame); });
   writer.finish();
   return outcome;
@@ -180,16 +185,18 @@ void simulate_command(const SimulateOptions& options) {
   if (!options.trajectory.empty()) {
     check_writable(options.trajectory, options.overwrite ? Overwrite::yes : Overwrite::no);
   }
-  const std::vector<Animat> animats = animats_of(options);
-  const core::Scene scene = scene_of(options);
+  const Experiment experiment = experiment_of(options.rules);
+  const core::Scene scene = scene_to_run(experiment, options);
+  const core::LocomotionOptions locomotion = locomotion_of(experiment, options.threads);
+  const std::vector<Animat> animats = animats_of(experiment, options);
   check_steps(animats, scene);
-  tell_work(animats, scene, options.locomotion);
-  warn_of_steps(animats, scene, options.locomotion.method);
+  tell_work(animats, scene, locomotion);
+  warn_of_steps(animats, scene, locomotion.method);
   std::vector<core::Outcome> outcomes;
   if (options.trajectory.empty()) {
-    outcomes = simulate_all(animats, scene, options.locomotion);
+    outcomes = simulate_all(animats, scene, locomotion);
   } else if (animats.size() == 1) {
-    outcomes = {simulate_with_trajectory(animats.front(), scene, options)};
+    outcomes = {simulate_with_trajectory(animats.front(), scene, locomotion, options)};
   } else {
     throw InputError(fmt::format("--trajectory: {} bodies: expected one", animats.size()));
   }
@@ -210,33 +217,33 @@ void add_simulate_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("simulate",
                                          "Moves bodies in a scene and prints how far they got. "
                                          "Several files, or those of a directory, "
-                                         "run as one batch; a genome is developed first.");
+                                         "run as one batch; a genome is developed first. "
+                                         "Every body moves once, from where it is, also where "
+                                         "a trial has several starts.");
   command
       ->add_option("INPUT", options->inputs,
                    "Body or genome files, or directories of them; genomes are developed first")
       ->required()
       ->option_text("FILE|DIRECTORY...");
-  add_scene_option(*command, options->scene);
+  add_rules_options(*command, options->rules);
+  add_trial_options(*command, options->rules);
   command->add_option("--steps", options->run_steps, "Length of the run, in paper steps of 0.2")
       ->check(integer_from(1, 100000000))
-      ->option_text("STEPS [3000]");
+      ->option_text("STEPS [the scene's, 3000]");
   command
       ->add_option(
           "--dt", options->step,
           "Step of the integrator, in time units; auto: chosen for each body from its stiffness, "
           "also while it settles")
       ->check(number_from(1e-6, 10, "auto"))
-      ->option_text("TIME|auto [0.2 in water, 0.15 on land]");
-  add_locomotion_options(*command, options->locomotion);
-  command->add_option("--threads", options->locomotion.threads, "Threads; 0 for all there are")
+      ->option_text("TIME|auto [the scene's, 0.2 in water, 0.15 on land]");
+  command->add_option("--threads", options->threads, "Threads; 0 for all there are")
       ->check(integer_from(0, 4096))
       ->option_text("N [0]");
   command
       ->add_option("--stage", options->stage, "Development step at which a genome's body is taken")
       ->check(integer_from(1, 1000000))
-      ->option_text("STEP [end of development]")
-      ->group("Development");
-  add_development_options(*command, options->choice.rules, options->choice.min_cells);
+      ->option_text("STEP [the trial's, or the end of development]");
   command
       ->add_option("--trajectory", options->trajectory,
                    "Write the motion of a single body as CSV: step, time, node, x, y, vx, vy")

@@ -4,12 +4,11 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <map>
-#include <optional>
 #include <sstream>
 
+#include "evolve/experiment/assign.h"
 #include "evolve/experiment/contradictions.h"
 #include "evolve/experiment/keys.h"
 #include "evolve/experiment/nearest_name.h"
@@ -17,84 +16,6 @@
 
 namespace metamorph::evolve {
 namespace {
-
-bool is_name(std::string_view text) {
-  return !text.empty() && text.front() != '.' && text.size() <= 100 &&
-         std::all_of(text.begin(), text.end(), [](unsigned char c) {
-           return std::isalnum(c) || c == '-' || c == '_' || c == '.';
-         });
-}
-
-/// Stores a value in the key's field; false if type or range are wrong.
-bool assign(const Key& key, const toml::node& node) {
-  struct Visitor {
-    const Key& key;
-    const toml::node& node;
-    bool in_range(double value) const { return value >= key.low && value <= key.high; }
-    bool operator()(int* field) const {
-      const auto value = node.value_exact<std::int64_t>();
-      if (!value || !in_range(static_cast<double>(*value))) return false;
-      *field = static_cast<int>(*value);
-      return true;
-    }
-    bool operator()(std::uint64_t* field) const {
-      const auto value = node.value_exact<std::int64_t>();
-      if (!value || !in_range(static_cast<double>(*value))) return false;
-      *field = static_cast<std::uint64_t>(*value);
-      return true;
-    }
-    bool operator()(double* field) const {
-      if (!node.is_number()) return false;
-      const double value = *node.value<double>();
-      if (!std::isfinite(value) || !in_range(value)) return false;
-      *field = value;
-      return true;
-    }
-    bool operator()(const Step& step) const {
-      if (node.value_exact<std::string>() != "auto") return (*this)(step.value);
-      *step.value = core::automatic_step;
-      return true;
-    }
-    bool operator()(bool* field) const {
-      if (!node.is_boolean()) return false;
-      *field = *node.value<bool>();
-      return true;
-    }
-    bool operator()(std::string* field) const {
-      const auto value = node.value_exact<std::string>();
-      if (!value || !is_name(*value)) return false;
-      *field = *value;
-      return true;
-    }
-    bool operator()(const Choice& choice) const {
-      const auto value = node.value_exact<std::string>();
-      if (!value) return false;
-      const auto found = std::find(choice.names.begin(), choice.names.end(), *value);
-      if (found == choice.names.end()) return false;
-      choice.set(static_cast<std::size_t>(found - choice.names.begin()));
-      return true;
-    }
-  };
-  return std::visit(Visitor{key, node}, key.field);
-}
-
-std::string shown(const toml::node& node) {
-  std::ostringstream text;
-  if (const auto* string = node.as_string()) {
-    text << '"' << string->get() << '"';
-  } else if (node.is_table()) {
-    text << "a table";
-  } else if (node.is_array()) {
-    text << "a list";
-  } else {
-    node.visit([&](const auto& value) {
-      if constexpr (toml::is_value<decltype(value)>) text << value;
-    });
-  }
-  std::string line = text.str().substr(0, 60);
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  return line;
-}
 
 std::string join_path(std::string_view section, std::string_view key) {
   return section.empty() ? std::string(key) : fmt::format("{}.{}", section, key);
@@ -181,9 +102,9 @@ class Reader {
                                   [&](const Key& k) { return k.name == name; });
     if (key == section.keys.end()) {
       unknown(where, path, shown(node), &section);
-    } else if (!assign(*key, node)) {
-      faults_.push_back(
-          fmt::format("{}: {} = {}: expected {}", where, path, shown(node), expectation(*key)));
+    } else if (std::string fault; !assign(*key, node, fault)) {
+      faults_.push_back(fmt::format("{}: {} = {}: {}expected {}", where, path, shown(node),
+                                    fault.empty() ? "" : fault + ": ", expectation(*key)));
     } else {
       origin_[path] = where;
     }
@@ -386,6 +307,10 @@ std::string describe_keys() {
     for (const Key& key : section.keys) {
       text += fmt::format("  {} = {}  ({}; {})\n", join_path(section.path, key.name),
                           value_text(key), key.help, expectation(key));
+      const NameList* list = std::get_if<NameList>(&key.field);
+      for (std::size_t i = 0; list != nullptr && i < list->names.size(); ++i) {
+        text += fmt::format("    {}: {}\n", list->names[i], list->meanings[i]);
+      }
     }
   }
   return text;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <iterator>
 
@@ -15,6 +16,31 @@ template <class Enum>
 Choice choice(Enum& field, std::vector<std::string_view> names) {
   return {std::move(names), [&field] { return static_cast<std::size_t>(field); },
           [&field](std::size_t i) { field = static_cast<Enum>(i); }};
+}
+
+/// The names of a catalogue of signals; the field holds those chosen, in the catalogue's order, so
+/// that the order in which they are written decides nothing.
+template <class Signal, std::size_t Count>
+NameList signal_list(std::vector<Signal>& field,
+                     const std::array<core::SignalEntry<Signal>, Count>& catalogue,
+                     std::size_t needed) {
+  NameList list;
+  for (const auto& entry : catalogue) {
+    list.names.push_back(entry.name);
+    list.meanings.push_back(entry.meaning);
+  }
+  list.needed = needed;
+  list.get = [&field] {
+    std::vector<std::size_t> chosen;
+    for (const Signal signal : field) chosen.push_back(static_cast<std::size_t>(signal));
+    return chosen;
+  };
+  list.set = [&field](std::vector<std::size_t> chosen) {
+    std::sort(chosen.begin(), chosen.end());
+    field.clear();
+    for (const std::size_t i : chosen) field.push_back(static_cast<Signal>(i));
+  };
+  return list;
 }
 
 Choice base_choice(NamedScene& named) {
@@ -54,7 +80,12 @@ Section development_section(Experiment& e) {
        {"division_space", &d.division_space, 0, 1e6, "d; free space a daughter needs"},
        {"coordinate_scale", &d.coordinate_scale, 1e-6, 1e6, "d; divides the x and y inputs"},
        {"period_min", &d.period_min, 1e-3, 1e6, "shortest oscillation, time units"},
-       {"period_max", &d.period_max, 1e-3, 1e6, "longest oscillation, time units"}}};
+       {"period_max", &d.period_max, 1e-3, 1e6, "longest oscillation, time units"},
+       {"inputs",
+        signal_list(d.inputs, core::input_signals, static_cast<std::size_t>(core::Input::bias)), 0,
+        0, "what a cell tells its control network; the order does not matter"},
+       {"outputs", signal_list(d.outputs, core::output_signals, core::output_signals.size()), 0, 0,
+        "what the network tells its cell; one that is left out reads 0"}}};
 }
 
 Section body_section(Experiment& e) {
@@ -121,6 +152,15 @@ Section neat_section(Experiment& e) {
            {"weight_limit", &n.weight_limit, 1e-6, 1000, "largest absolute weight"},
            {"fitness_floor", &n.fitness_floor, 0, 1e6, "least fitness before sharing"},
            {"clone_tries", &n.clone_tries, 0, 1e6, "times an identical child is bred again"}}};
+}
+
+/// "time", "x", "y"
+std::string quoted(const std::vector<std::string_view>& names) {
+  std::string text;
+  for (const std::string_view name : names) {
+    text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", name);
+  }
+  return text;
 }
 
 template <class Number>
@@ -224,10 +264,11 @@ std::string expectation(const Key& key) {
     std::string operator()(const std::string*) const {
       return "a name of letters, digits, '-', '_' and '.', in quotes";
     }
-    std::string operator()(const Choice& c) const {
-      std::string text = "one of";
-      for (const std::string_view& name : c.names) {
-        text += fmt::format("{}\"{}\"", &name == &c.names.front() ? " " : ", ", name);
+    std::string operator()(const Choice& c) const { return "one of " + quoted(c.names); }
+    std::string operator()(const NameList& list) const {
+      std::string text = "a list of one or more of " + quoted(list.names) + ", each once";
+      if (list.needed < list.names.size()) {
+        text += fmt::format(", with \"{}\"", list.names[list.needed]);
       }
       return text;
     }
@@ -247,6 +288,11 @@ std::string value_text(const Key& key) {
     std::string operator()(const std::string* value) const { return '"' + *value + '"'; }
     std::string operator()(const Choice& c) const {
       return fmt::format("\"{}\"", c.names[c.get()]);
+    }
+    std::string operator()(const NameList& list) const {
+      std::vector<std::string_view> chosen;
+      for (const std::size_t i : list.get()) chosen.push_back(list.names[i]);
+      return fmt::format("[{}]", quoted(chosen));
     }
   };
   return std::visit(Visitor{}, key.field);

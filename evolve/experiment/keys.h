@@ -23,11 +23,19 @@ struct Step {
   double* value;
 };
 
+/// Some of a few names, each once, as a list.
+struct NameList {
+  std::vector<std::string_view> names, meanings;  ///< [names]
+  std::size_t needed;                             ///< that none may lack; names.size(): none
+  std::function<std::vector<std::size_t>()> get;
+  std::function<void(const std::vector<std::size_t>&)> set;
+};
+
 /// One key of an experiment file: what it is called, where its value lives and what is allowed.
 /// Reading, --set, the configuration in the record and the help are all driven by these.
 struct Key {
   std::string_view name;
-  std::variant<int*, std::uint64_t*, double*, bool*, std::string*, Choice, Step> field;
+  std::variant<int*, std::uint64_t*, double*, bool*, std::string*, Choice, Step, NameList> field;
   double low = 0, high = 0;  ///< range of a number, both ends included
   std::string_view help;     ///< what it is, with its unit
 };

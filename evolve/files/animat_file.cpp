@@ -54,6 +54,7 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& directo
 
 /// Bodies as they are read, genomes as networks with their places among the animats.
 struct Reading {
+  const core::DevelopmentRules& rules;
   std::vector<Animat> animats;
   std::vector<std::size_t> places;
   std::vector<core::Network> networks;
@@ -67,7 +68,9 @@ struct Reading {
       if (format == body_format) {
         animats.push_back({name, core::Status::ok, parse_body(text, name)});
       } else if (format == genome_format) {
-        networks.push_back(compile(parse_genome(text, name)));
+        const Genome genome = parse_genome(text, name);
+        check_fits(genome, rules, name);
+        networks.push_back(compile(genome, shape_of(rules)));
         places.push_back(animats.size());
         animats.push_back({name, core::Status::ok, {}});
       } else if (!(skip_embryo && format == embryo_format)) {
@@ -90,7 +93,7 @@ std::string format_of(const std::filesystem::path& file) {
 
 std::vector<Animat> read_animats(const std::vector<std::filesystem::path>& paths,
                                  const BodyChoice& choice, int threads) {
-  Reading reading;
+  Reading reading{choice.rules, {}, {}, {}, {}};
   for (const std::filesystem::path& path : paths) {
     std::error_code error;
     if (!std::filesystem::is_directory(path, error)) {

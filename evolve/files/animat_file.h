@@ -31,7 +31,8 @@ std::string format_of(const std::filesystem::path& file);
 /// Reads what `paths` name, in order: body and genome files, and of a directory every such file
 /// among its *.json (not below it), ascending by name; embryo files there, which grow writes beside
 /// the bodies, are left out. Genomes are grown as one batch. Throws InputError with the faults of
-/// all files, and for a directory without a body or genome.
+/// all files, genomes whose inputs or outputs the rules do not have among them, and for a directory
+/// without a body or genome.
 std::vector<Animat> read_animats(const std::vector<std::filesystem::path>& paths,
                                  const BodyChoice& choice, int threads);
 

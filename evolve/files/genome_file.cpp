@@ -42,14 +42,18 @@ void read_objects(const Json* value, const std::string& key, const std::string& 
   }
 }
 
-int id_of(Members& members, const std::string& name, FaultList& faults) {
-  const Json* value = members.required(name, "an integer >= 0");
-  return value == nullptr ? 0 : as_integer(*value, members.key_of(name), faults, 0).value_or(0);
+int integer_of(Members& members, const std::string& name, int low, FaultList& faults) {
+  const Json* value = members.required(name, "an integer >= " + std::to_string(low));
+  return value == nullptr ? 0 : as_integer(*value, members.key_of(name), faults, low).value_or(0);
+}
+
+int node_of(Members& members, const std::string& name, FaultList& faults) {
+  return integer_of(members, name, least_id, faults);
 }
 
 NodeGene read_node(Members& members, FaultList& faults) {
   NodeGene node;
-  node.id = id_of(members, "id", faults);
+  node.id = node_of(members, "id", faults);
   if (const Json* kind = members.required("kind", "\"input\", \"output\" or \"hidden\"")) {
     node.kind = as_kind(*kind, members.key_of("kind"), faults).value_or(NodeKind::hidden);
   }
@@ -58,9 +62,9 @@ NodeGene read_node(Members& members, FaultList& faults) {
 
 LinkGene read_link(Members& members, FaultList& faults) {
   LinkGene link;
-  link.innovation = id_of(members, "innovation", faults);
-  link.from = id_of(members, "from", faults);
-  link.to = id_of(members, "to", faults);
+  link.innovation = integer_of(members, "innovation", 0, faults);
+  link.from = node_of(members, "from", faults);
+  link.to = node_of(members, "to", faults);
   if (const Json* weight = members.required("weight", "a number")) {
     link.weight =
         as_number(*weight, members.key_of("weight"), faults, -largest_weight, largest_weight)
@@ -101,6 +105,19 @@ Genome parse_genome(std::string_view text, const std::string& source) {
 
 Genome read_genome(const std::filesystem::path& file) {
   return parse_genome(read_text(file), file.string());
+}
+
+Genome read_genome(const std::filesystem::path& file, const core::DevelopmentRules& rules) {
+  Genome genome = read_genome(file);
+  check_fits(genome, rules, file.string());
+  return genome;
+}
+
+void check_fits(const Genome& genome, const core::DevelopmentRules& rules,
+                const std::string& source) {
+  FaultList faults(source);
+  for (const std::string& line : misfits(genome, shape_of(rules))) faults.add_line(line);
+  faults.throw_if_any();
 }
 
 std::string genome_text(const Genome& genome) {

@@ -13,9 +13,15 @@ inline constexpr std::string_view genome_format = "metamorph-genome/1";
 inline constexpr double largest_weight = 1000;  ///< in a file; evolution stays within +-8
 
 /// Reads a genome file (see README, Files): `nodes` [{"id", "kind"}] and `links` [{"innovation",
-/// "from", "to", "weight"}], in any order. The genome is sound: check() finds nothing. Throws
-/// InputError with all faults.
+/// "from", "to", "weight"}], in any order; the ids are those of control_shape.h. The genome is
+/// sound: check() finds nothing. Throws InputError with all faults.
 Genome read_genome(const std::filesystem::path& file);
+/// The same for development by these rules: one with other inputs or outputs is a fault as well.
+Genome read_genome(const std::filesystem::path& file, const core::DevelopmentRules& rules);
+
+/// Throws InputError if the rules have other inputs or outputs than a genome; `source` names it.
+void check_fits(const Genome& genome, const core::DevelopmentRules& rules,
+                const std::string& source);
 
 /// The same from text; `source` names it in faults.
 Genome parse_genome(std::string_view text, const std::string& source);

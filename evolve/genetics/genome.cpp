@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <set>
 #include <string_view>
@@ -22,6 +24,11 @@ std::string_view kind_name(NodeKind kind) {
       break;
   }
   return "hidden";
+}
+
+template <std::size_t Count>
+bool contains(const std::array<int, Count>& ids, int id) {
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
 // Position of a node among the ascending ids, or -1.
@@ -97,28 +104,42 @@ Sweep sweep(const Adjacency& graph) {
   return result;
 }
 
+// "inputs 0-5, -1 (neighbours), outputs 6-12, hidden from 13 on": the paper's in one range.
+std::string known_ids() {
+  const auto listed = [](std::string_view kind, const auto& signals, const auto& ids,
+                         std::size_t of_paper) {
+    std::string text = fmt::format("{} {}-{}", kind, ids[0], ids[of_paper - 1]);
+    for (std::size_t i = of_paper; i < ids.size(); ++i) {
+      text += fmt::format(", {} ({})", ids[i], signals[i].name);
+    }
+    return text;
+  };
+  return fmt::format(
+      "{}, {}, hidden from {} on",
+      listed("inputs", core::input_signals, input_ids, core::paper_inputs().size()),
+      listed("outputs", core::output_signals, output_ids, core::paper_outputs().size()),
+      first_hidden);
+}
+
 void check_nodes(const Genome& genome, std::vector<std::string>& faults) {
-  bool ascending = true;
   for (std::size_t n = 0; n < genome.nodes.size(); ++n) {
     const NodeGene& node = genome.nodes[n];
-    if (node.id < 0) {
-      faults.push_back(fmt::format("node {}: the id is negative", node.id));
-    } else if (node.kind != kind_of(node.id)) {
-      faults.push_back(
-          fmt::format("node {}: kind is {}, but ids 0-5 are inputs, 6-12 outputs, 13 "
-                      "and above hidden",
-                      node.id, kind_name(node.kind)));
+    if (const auto kind = kind_of(node.id); !kind) {
+      faults.push_back(fmt::format("node {}: {} with this id is unknown: expected {}", node.id,
+                                   kind_name(node.kind), known_ids()));
+    } else if (node.kind != *kind) {
+      faults.push_back(fmt::format("node {}: kind is {}: expected {}", node.id,
+                                   kind_name(node.kind), known_ids()));
     }
     if (n > 0 && genome.nodes[n - 1].id >= node.id) {
-      ascending = false;
       faults.push_back(fmt::format("node {}: follows node {}, but ids must ascend", node.id,
                                    genome.nodes[n - 1].id));
     }
   }
-  if (!ascending) return;
-  for (int id = 0; id < first_hidden; ++id) {
-    if (position(genome, id) < 0) {
-      faults.push_back(fmt::format("node {}: this {} is missing", id, kind_name(kind_of(id))));
+  for (const NodeKind kind : {NodeKind::input, NodeKind::output}) {
+    if (std::none_of(genome.nodes.begin(), genome.nodes.end(),
+                     [&](const NodeGene& node) { return node.kind == kind; })) {
+      faults.push_back(fmt::format("nodes: no {} among them: expected one", kind_name(kind)));
     }
   }
 }
@@ -176,6 +197,13 @@ void check_cycles(const Genome& genome, std::vector<std::string>& faults) {
 
 }  // namespace
 
+std::optional<NodeKind> kind_of(int id) {
+  if (id >= first_hidden) return NodeKind::hidden;
+  if (contains(output_ids, id)) return NodeKind::output;
+  if (contains(input_ids, id)) return NodeKind::input;
+  return std::nullopt;
+}
+
 std::vector<std::string> check(const Genome& genome) {
   std::vector<std::string> faults;
   check_nodes(genome, faults);
@@ -190,7 +218,29 @@ std::vector<std::string> check(const Genome& genome) {
   return faults;
 }
 
-core::Network compile(const Genome& genome) {
+std::vector<std::string> misfits(const Genome& genome, const ControlShape& shape) {
+  std::vector<std::string> lines;
+  const auto compare = [&](std::string_view what, const auto& catalogue, const auto& expected) {
+    std::vector<std::string_view> has, may;
+    bool fits = true;
+    for (const auto& [signal, name, meaning] : catalogue) {
+      const bool allowed = std::find(expected.begin(), expected.end(), signal) != expected.end();
+      if (allowed) may.push_back(name);
+      if (position(genome, node_id(signal)) < 0) continue;
+      has.push_back(name);
+      fits &= allowed;
+    }
+    if (fits) return;
+    lines.push_back(fmt::format("{}: {}: expected none but {}", what, fmt::join(has, ", "),
+                                fmt::join(may, ", ")));
+  };
+  compare("inputs", core::input_signals, shape.inputs);
+  compare("outputs", core::output_signals, shape.outputs);
+  return lines;
+}
+
+core::Network compile(const Genome& genome, const ControlShape& shape) {
+  assert(misfits(genome, shape).empty());
   const Adjacency graph = outgoing_links(genome);
   const Sweep swept = sweep(graph);
   const std::size_t nodes = genome.nodes.size();
@@ -220,20 +270,23 @@ core::Network compile(const Genome& genome) {
   for (std::size_t d = 1; d < first_of_depth.size(); ++d)
     first_of_depth[d] += first_of_depth[d - 1];
   const int count = first_of_depth.back();
+  core::Network network;
+  network.inputs = static_cast<int>(shape.inputs.size());
   std::vector<int> slot(nodes, -1);
+  for (std::size_t i = 0; i < shape.inputs.size(); ++i) {
+    const int n = position(genome, node_id(shape.inputs[i]));
+    if (n >= 0) slot[static_cast<std::size_t>(n)] = static_cast<int>(i);
+  }
   for (std::size_t n = 0; n < nodes; ++n) {
-    if (genome.nodes[n].kind == NodeKind::input) {
-      slot[n] = genome.nodes[n].id;
-    } else if (computed(n)) {
-      slot[n] = core::network_inputs + first_of_depth[static_cast<std::size_t>(swept.depth[n])]++;
+    if (computed(n)) {
+      slot[n] = network.inputs + first_of_depth[static_cast<std::size_t>(swept.depth[n])]++;
     }
   }
 
   // Incoming links of every slot, in order of innovation because the genome lists them so.
-  core::Network network;
   network.first_link.assign(static_cast<std::size_t>(count) + 1, 0);
   const auto target = [&](std::size_t l) {
-    return slot[static_cast<std::size_t>(graph.to[l])] - core::network_inputs;
+    return slot[static_cast<std::size_t>(graph.to[l])] - network.inputs;
   };
   for (std::size_t l = 0; l < genome.links.size(); ++l) {
     if (target(l) >= 0) ++network.first_link[static_cast<std::size_t>(target(l)) + 1];
@@ -250,9 +303,14 @@ core::Network compile(const Genome& genome) {
     network.source[at] = slot[static_cast<std::size_t>(graph.from[l])];
     network.weight[at] = static_cast<float>(genome.links[l].weight);
   }
-  for (int o = 0; o < core::network_outputs; ++o) {
-    network.output[static_cast<std::size_t>(o)] =
-        slot[static_cast<std::size_t>(position(genome, core::network_inputs + o))];
+  for (const core::Output output : shape.outputs) {
+    const int n = position(genome, node_id(output));
+    if (n >= 0) {
+      network.output.push_back(slot[static_cast<std::size_t>(n)]);
+      continue;
+    }
+    network.output.push_back(network.inputs + network.node_count());
+    network.first_link.push_back(network.first_link.back());  // a node without links
   }
   return network;
 }

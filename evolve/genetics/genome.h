@@ -1,24 +1,18 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "evolve/genetics/control_shape.h"
 #include "metamorph/network.h"
 
 namespace metamorph::evolve {
 
-inline constexpr int bias_input = core::network_inputs - 1;
-/// Hidden nodes have ids from here on; below are the inputs, then the outputs.
-inline constexpr int first_hidden = core::network_inputs + core::network_outputs;
-
 enum class NodeKind { input, output, hidden };
 
-/// The kind that a node of this id has.
-constexpr NodeKind kind_of(int id) {
-  return id < core::network_inputs ? NodeKind::input
-         : id < first_hidden       ? NodeKind::output
-                                   : NodeKind::hidden;
-}
+/// The kind that a node of this id has; none if no signal has the id.
+std::optional<NodeKind> kind_of(int id);
 
 struct NodeGene {
   int id = 0;
@@ -34,11 +28,12 @@ struct LinkGene {
   bool operator==(const LinkGene&) const = default;
 };
 
-/// A NEAT genome. Node ids: inputs 0-5 (time, x, y, morphogen 1, morphogen 2, bias), outputs 6-12
-/// (inhibit, angle, die, morphogen 1, morphogen 2, period, phase), hidden from 13 on.
-/// Invariants: all inputs and outputs present; nodes ascending by id; links ascending by
-/// innovation; no two links join the same pair; no cycle; no link into an input, none out of an
-/// output; finite weights.
+/// A NEAT genome. Nodes of inputs and outputs have the ids of control_shape.h, hidden ones count
+/// from first_hidden on. Which inputs and outputs it has is its own affair; one that it lacks is as
+/// good as one without links.
+/// Invariants: nodes ascending by id, of the kind that the id says, at least one input and one
+/// output; links ascending by innovation; no two links join the same pair; no cycle; no link into
+/// an input, none out of an output; finite weights.
 struct Genome {
   std::vector<NodeGene> nodes;
   std::vector<LinkGene> links;
@@ -49,10 +44,15 @@ struct Genome {
 /// whatever the genome holds.
 std::vector<std::string> check(const Genome& genome);
 
-/// Flattens a sound genome for inference in one topological sweep. Nodes are ordered by depth (the
-/// most links on a path that ends there), ties by id; the links of a node are summed in order of
-/// innovation. Hidden nodes from which no output can be reached are left out: they change nothing.
-/// A hidden node without incoming links is 0.
-core::Network compile(const Genome& genome);
+/// What a genome has that a control network of this shape cannot have, one line for inputs and one
+/// for outputs: what they are and what was expected. Empty if it fits.
+std::vector<std::string> misfits(const Genome& genome, const ControlShape& shape);
+
+/// Flattens a sound genome that fits a shape for inference in one topological sweep. Nodes are
+/// ordered by depth (the most links on a path that ends there), ties by id; the links of a node are
+/// summed in order of innovation. Hidden nodes from which no output can be reached are left out:
+/// they change nothing. A hidden node without incoming links is 0, and so is an output that the
+/// genome lacks; an input that it lacks is read by nobody.
+core::Network compile(const Genome& genome, const ControlShape& shape = {});
 
 }  // namespace metamorph::evolve

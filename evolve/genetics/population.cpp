@@ -13,13 +13,14 @@
 
 namespace metamorph::evolve {
 
-PopulationState first_generation(const NeatSettings& settings, std::uint64_t seed) {
+PopulationState first_generation(const NeatSettings& settings, std::uint64_t seed,
+                                 const ControlShape& shape) {
   PopulationState state;
   state.seed = seed;
   state.compatibility_threshold = settings.compatibility_threshold;
   for (int i = 0; i < settings.population; ++i) {
     RandomStream stream(Purpose::initial_genome, seed, 0, static_cast<std::uint32_t>(i));
-    state.genomes.push_back(seed_genome(settings, stream));
+    state.genomes.push_back(seed_genome(settings, stream, shape));
     Individual individual;
     individual.id = state.next_individual++;
     state.individuals.push_back(individual);

@@ -75,7 +75,8 @@ struct PopulationState {
 };
 
 /// Generation 0: the seed topology with random weights, already placed in species.
-PopulationState first_generation(const NeatSettings& settings, std::uint64_t seed);
+PopulationState first_generation(const NeatSettings& settings, std::uint64_t seed,
+                                 const ControlShape& shape = {});
 
 /// Breeds the next generation in place: records the fitness of the present one in its species,
 /// breeds exactly settings.population children, places them in species. `fitness` finite and >= 0,

@@ -48,7 +48,7 @@ void keep_best(std::vector<Champion>& champions, int count) {
 }
 
 core::Extraction body_of(const Genome& genome, const Experiment& experiment, int stage) {
-  const std::vector<core::Network> networks = {compile(genome)};
+  const std::vector<core::Network> networks = {compile(genome, shape_of(experiment.development))};
   const std::vector<int> stages = {stage};
   const auto embryos = core::develop(networks, experiment.development, stages, 1);
   return core::extract_body(embryos.front().front(), experiment.min_cells);

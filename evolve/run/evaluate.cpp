@@ -76,12 +76,13 @@ std::vector<Evaluated> Evaluator::evaluate(std::span<const Genome> genomes,
   work_ = {};
 
   Stopwatch watch;
+  const ControlShape shape = shape_of(experiment_.development);
   std::vector<core::Network> networks(genomes.size());
   std::vector<Fingerprint> prints(genomes.size());
 #pragma omp parallel for schedule(dynamic) num_threads(threads_)
   for (std::ptrdiff_t i = 0; i < signed_size(networks); ++i) {
     const auto n = static_cast<std::size_t>(i);
-    networks[n] = compile(genomes[n]);
+    networks[n] = compile(genomes[n], shape);
     prints[n] = fingerprint(networks[n]);
   }
   std::vector<core::Network> fresh;
@@ -122,7 +123,7 @@ std::vector<Evaluated> Evaluator::evaluate(std::span<const Genome> genomes,
 
 Evaluated Evaluator::evaluate_fully(const Genome& genome, int generation,
                                     EvaluationSeconds& seconds) const {
-  const core::Network networks[] = {compile(genome)};
+  const core::Network networks[] = {compile(genome, shape_of(experiment_.development))};
   const Genome* const genomes[] = {&genome};
   const std::vector<std::uint8_t> every_trial(experiment_.trials.size(), 1);
   EvaluationWork work;

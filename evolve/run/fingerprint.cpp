@@ -3,6 +3,7 @@
 #include <Random123/threefry.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <type_traits>
 
@@ -53,8 +54,8 @@ Fingerprint of(const Lists&... lists) {
 // The bindings name every field: a new one does not compile before it is thought of here.
 
 Fingerprint fingerprint(const core::Network& network) {
-  const auto& [first_link, source, weight, output] = network;
-  return of(first_link, source, weight, output);
+  const auto& [inputs, first_link, source, weight, output] = network;
+  return of(std::array{inputs}, first_link, source, weight, output);
 }
 
 Fingerprint fingerprint(const core::Body& body) {

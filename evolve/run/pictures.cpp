@@ -11,7 +11,7 @@ namespace metamorph::evolve {
 
 Sheet individual_sheet(const Experiment& experiment, const Genome& genome,
                        std::span<const core::Outcome> trials, const std::string& heading) {
-  const core::Network network = compile(genome);
+  const core::Network network = compile(genome, shape_of(experiment.development));
   const std::vector<int> steps = experiment.stages();
   const std::vector<core::Embryo> embryos =
       core::develop({&network, 1}, experiment.development, steps, 1).front();

@@ -167,7 +167,9 @@ Checkpoint Record::checkpoint() {
   Statement select(*database_, "SELECT state FROM checkpoint");
   if (!select.step()) {
     if (done > 0) throw InputError(source + ": checkpoint is missing");
-    return {first_generation(recorded.neat, recorded.seed), initial_state(recorded.search), {}};
+    return {first_generation(recorded.neat, recorded.seed, shape_of(recorded.development)),
+            initial_state(recorded.search),
+            {}};
   }
   Checkpoint checkpoint = decode(select.blob(0), source);
   const PopulationState& population = checkpoint.population;

@@ -10,6 +10,9 @@
 
 namespace metamorph::core::testing {
 
+inline constexpr int network_inputs = 6;
+inline constexpr int network_outputs = 7;
+
 /// Slots of the inputs and positions of the outputs, by name.
 enum Input { time, x, y, mean1, mean2, bias };
 enum Output { inhibit, angle, die, morphogen1, morphogen2, period, phase };
@@ -39,13 +42,14 @@ class NetworkBuilder {
 
   Network build() const {
     Network network;
+    network.inputs = network_inputs;
     for (int o = 0; o < network_outputs; ++o) {
       for (const auto& [source, weight] : links_[static_cast<std::size_t>(o)]) {
         network.source.push_back(source);
         network.weight.push_back(weight);
       }
       network.first_link.push_back(static_cast<int>(network.source.size()));
-      network.output[static_cast<std::size_t>(o)] = network_inputs + o;
+      network.output.push_back(network_inputs + o);
     }
     return network;
   }
@@ -60,6 +64,7 @@ inline Network random_network(std::uint64_t seed, std::uint32_t individual = 0) 
   constexpr int hidden = 8;
   evolve::RandomStream random(evolve::Purpose::test, seed, 0, individual);
   Network network;
+  network.inputs = network_inputs;
   const auto add = [&](int source) {
     network.source.push_back(source);
     network.weight.push_back(static_cast<float>(2 * random.triangular()));
@@ -75,7 +80,7 @@ inline Network random_network(std::uint64_t seed, std::uint32_t individual = 0) 
     for (int h = 0; h < hidden; ++h) add(network_inputs + h);
     add(bias);
     end_node();
-    network.output[static_cast<std::size_t>(o)] = network_inputs + hidden + o;
+    network.output.push_back(network_inputs + hidden + o);
   }
   return network;
 }

@@ -63,6 +63,11 @@ TEST(Fingerprint, EveryBitOfANetworkCounts) {
   for_every_bit(network.source, visit);
   for_every_bit(network.weight, visit);
   for_every_bit(network.output, visit);
+  for (int bit = 0; bit < 32; ++bit) {
+    network.inputs ^= static_cast<int>(1u << bit);
+    visit();
+    network.inputs ^= static_cast<int>(1u << bit);
+  }
   EXPECT_EQ(seen.size(), variants);
 }
 

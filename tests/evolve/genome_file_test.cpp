@@ -61,6 +61,22 @@ RC_GTEST_PROP(GenomeFile, WriteReadWriteGivesTheSameBytes, ()) {
   RC_ASSERT(genome_text(again) == text);
 }
 
+TEST(GenomeFile, HoldsAnInputThatCameLater) {
+  Genome genome = layered(1, 7);
+  genome.nodes.insert(genome.nodes.begin(), {-1, NodeKind::input});
+  genome.links.push_back({1000, -1, 13, 0.25});
+  const std::string text = genome_text(genome);
+  EXPECT_EQ(parse_genome(text, "f"), genome);
+  EXPECT_EQ(genome_text(parse_genome(text, "f")), text);
+  EXPECT_THAT(text, ::testing::HasSubstr("{\"id\": -1, \"kind\": \"input\"}"));
+  core::DevelopmentRules rules;
+  EXPECT_THAT(lines_of([&] { check_fits(genome, rules, "f"); }),
+              ElementsAre("f: inputs: time, x, y, morphogen_1, morphogen_2, bias, neighbours: "
+                          "expected none but time, x, y, morphogen_1, morphogen_2, bias"));
+  rules.inputs.push_back(core::Input::neighbours);
+  EXPECT_THAT(lines_of([&] { check_fits(genome, rules, "f"); }), ::testing::IsEmpty());
+}
+
 TEST(GenomeFile, OrderInTheFileDoesNotMatter) {
   Json object = small();
   std::reverse(object["nodes"].begin(), object["nodes"].end());
@@ -72,6 +88,7 @@ TEST(GenomeFile, NamesEveryFaultOfFormAndRange) {
   const std::string nodes = "expected an array of {\"id\", \"kind\"}";
   const std::string links = "expected an array of {\"innovation\", \"from\", \"to\", \"weight\"}";
   const std::string integer = "expected an integer from 0 to 2147483647";
+  const std::string node = "expected an integer from -1 to 2147483647";
   const std::string kinds = "expected \"input\", \"output\" or \"hidden\"";
   const std::string weight = "expected a number from -1000 to 1000";
   const std::vector<std::pair<Json, std::string>> table = {
@@ -82,11 +99,11 @@ TEST(GenomeFile, NamesEveryFaultOfFormAndRange) {
       {without("", "nodes"), "nodes: missing: " + nodes},
       {with("/nodes", 3), "nodes: 3: " + nodes},
       {with("/nodes/2", 5), "nodes[2]: 5: expected {\"id\", \"kind\"}"},
-      {without("/nodes/2", "id"), "nodes[2].id: missing: expected an integer >= 0"},
-      {with("/nodes/2/id", "two"), "nodes[2].id: \"two\": " + integer},
-      {with("/nodes/2/id", -1), "nodes[2].id: -1: " + integer},
-      {with("/nodes/2/id", 2.5), "nodes[2].id: 2.5: " + integer},
-      {with("/nodes/2/id", 4294967296), "nodes[2].id: 4294967296: " + integer},
+      {without("/nodes/2", "id"), "nodes[2].id: missing: expected an integer >= -1"},
+      {with("/nodes/2/id", "two"), "nodes[2].id: \"two\": " + node},
+      {with("/nodes/2/id", -2), "nodes[2].id: -2: " + node},
+      {with("/nodes/2/id", 2.5), "nodes[2].id: 2.5: " + node},
+      {with("/nodes/2/id", 4294967296), "nodes[2].id: 4294967296: " + node},
       {without("/nodes/2", "kind"), "nodes[2].kind: missing: " + kinds},
       {with("/nodes/2/kind", "inputs"), "nodes[2].kind: \"inputs\": " + kinds},
       {with("/nodes/2/kind", 1), "nodes[2].kind: 1: " + kinds},
@@ -96,12 +113,12 @@ TEST(GenomeFile, NamesEveryFaultOfFormAndRange) {
       {with("/links/1", Json::array()),
        "links[1]: []: expected {\"innovation\", \"from\", \"to\", \"weight\"}"},
       {without("/links/1", "innovation"), "links[1].innovation: missing: expected an integer >= 0"},
-      {without("/links/1", "from"), "links[1].from: missing: expected an integer >= 0"},
-      {without("/links/1", "to"), "links[1].to: missing: expected an integer >= 0"},
+      {without("/links/1", "from"), "links[1].from: missing: expected an integer >= -1"},
+      {without("/links/1", "to"), "links[1].to: missing: expected an integer >= -1"},
       {without("/links/1", "weight"), "links[1].weight: missing: expected a number"},
       {with("/links/1/innovation", -4), "links[1].innovation: -4: " + integer},
-      {with("/links/1/from", "bias"), "links[1].from: \"bias\": " + integer},
-      {with("/links/1/to", nullptr), "links[1].to: null: " + integer},
+      {with("/links/1/from", "bias"), "links[1].from: \"bias\": " + node},
+      {with("/links/1/to", nullptr), "links[1].to: null: " + node},
       {with("/links/1/weight", "w"), "links[1].weight: \"w\": " + weight},
       {with("/links/1/weight", 1e4), "links[1].weight: 10000.0: " + weight},
       {with("/links/1/enabled", true),
@@ -135,7 +152,7 @@ TEST(GenomeFile, RefusesGenomesThatAreUnsound) {
     for (const std::string& line : lines) EXPECT_THAT(line, StartsWith("f: "));
   }
   Json object = small();
-  object["nodes"].erase(4);  // an input is missing
+  object["nodes"].erase(4);  // a link from nowhere
   EXPECT_FALSE(faults(object.dump()).empty());
 }
 

@@ -21,13 +21,15 @@ using testing::restless;
 using testing::test_stream;
 using testing::wander;
 
-using Inputs = std::array<double, core::network_inputs>;
-using Outputs = std::array<double, core::network_outputs>;
+constexpr int input_count = 6;
+constexpr int output_count = 7;
+using Inputs = std::array<double, input_count>;
+using Outputs = std::array<double, output_count>;
 
 // What a genome means, straight from its genes: a node is the sigmoid of what its links bring.
 Outputs evaluate_recursively(const Genome& genome, const Inputs& inputs) {
   const std::function<double(int)> value = [&](int node) -> double {
-    if (node < core::network_inputs) return inputs[static_cast<std::size_t>(node)];
+    if (node < input_count) return inputs[static_cast<std::size_t>(node)];
     double sum = 0;
     for (const LinkGene& link : genome.links) {
       if (link.to == node)
@@ -36,8 +38,8 @@ Outputs evaluate_recursively(const Genome& genome, const Inputs& inputs) {
     return std::tanh(sum / 2);
   };
   Outputs outputs;
-  for (int o = 0; o < core::network_outputs; ++o) {
-    outputs[static_cast<std::size_t>(o)] = value(core::network_inputs + o);
+  for (int o = 0; o < output_count; ++o) {
+    outputs[static_cast<std::size_t>(o)] = value(input_count + o);
   }
   return outputs;
 }
@@ -50,7 +52,7 @@ Outputs evaluate(const core::Network& network, const Inputs& inputs) {
     double sum = 0;
     for (int l = network.first_link[node]; l < network.first_link[node + 1]; ++l) {
       const std::size_t link = static_cast<std::size_t>(l);
-      EXPECT_LT(network.source[link], core::network_inputs + n);
+      EXPECT_LT(network.source[link], input_count + n);
       sum += static_cast<double>(network.weight[link]) *
              value.at(static_cast<std::size_t>(network.source[link]));
     }
@@ -95,12 +97,109 @@ TEST(Compile, OrdersByDepthThenId) {
 TEST(Compile, LeavesOutWhatReachesNoOutput) {
   const Genome genome =
       hand_made({13, 14, 15}, {{0, 0, 13, 1}, {1, 13, 14, 1}, {2, 1, 15, 1}, {3, 15, 6, 1}});
-  EXPECT_EQ(compile(genome).node_count(), core::network_outputs + 1);
+  EXPECT_EQ(compile(genome).node_count(), output_count + 1);
 }
 
 TEST(Compile, AnUnlinkedHiddenNodeIsZero) {
   const Genome genome = hand_made({13}, {{0, 13, 6, 5}, {1, bias_input, 6, 1}});
   EXPECT_EQ(evaluate(compile(genome), {0, 0, 0, 0, 0, 1})[0], std::tanh(0.5));
+}
+
+TEST(SignalIds, NeverChange) {
+  using core::Input;
+  using core::Output;
+  EXPECT_EQ(node_id(Input::time), 0);
+  EXPECT_EQ(node_id(Input::x), 1);
+  EXPECT_EQ(node_id(Input::y), 2);
+  EXPECT_EQ(node_id(Input::morphogen_1), 3);
+  EXPECT_EQ(node_id(Input::morphogen_2), 4);
+  EXPECT_EQ(node_id(Input::bias), 5);
+  EXPECT_EQ(node_id(Input::neighbours), -1);
+  EXPECT_EQ(node_id(Output::inhibit), 6);
+  EXPECT_EQ(node_id(Output::angle), 7);
+  EXPECT_EQ(node_id(Output::die), 8);
+  EXPECT_EQ(node_id(Output::morphogen_1), 9);
+  EXPECT_EQ(node_id(Output::morphogen_2), 10);
+  EXPECT_EQ(node_id(Output::period), 11);
+  EXPECT_EQ(node_id(Output::phase), 12);
+  EXPECT_EQ(kind_of(-1), NodeKind::input);
+  EXPECT_EQ(kind_of(13), NodeKind::hidden);
+  EXPECT_EQ(kind_of(least_id - 1), std::nullopt);
+}
+
+TEST(SignalIds, AnotherInputShiftsNoneInTheFirstGenome) {
+  evolve::RandomStream stream = test_stream(4);
+  const Genome narrow = seed_genome({}, stream);
+  const Genome wide = seed_genome({}, stream, testing::with_neighbours());
+  EXPECT_THAT(check(wide), IsEmpty());
+  ASSERT_EQ(wide.nodes.size(), narrow.nodes.size() + 1);
+  EXPECT_EQ(wide.nodes.front(), (NodeGene{-1, NodeKind::input}));
+  EXPECT_TRUE(std::equal(narrow.nodes.begin(), narrow.nodes.end(), wide.nodes.begin() + 1));
+  EXPECT_EQ(std::count_if(wide.links.begin(), wide.links.end(),
+                          [](const LinkGene& link) { return link.from == -1; }),
+            8);  // to every hidden node
+}
+
+TEST(Compile, AGenomeWithoutAnInputIsOneWithoutLinksFromIt) {
+  for (const Genome& genome : wander(restless(), 20, 20, 6)) {
+    const core::Network narrow = compile(genome);
+    const core::Network wide = compile(genome, testing::with_neighbours());
+    Genome with_node = genome;
+    with_node.nodes.insert(with_node.nodes.begin(), {-1, NodeKind::input});
+    EXPECT_THAT(check(with_node), IsEmpty());
+    const core::Network same = compile(with_node, testing::with_neighbours());
+    ASSERT_EQ(wide.inputs, input_count + 1);
+    EXPECT_EQ(wide.first_link, narrow.first_link);
+    EXPECT_EQ(wide.weight, narrow.weight);
+    for (std::size_t l = 0; l < wide.source.size(); ++l) {
+      EXPECT_EQ(wide.source[l], narrow.source[l] + (narrow.source[l] >= input_count));
+    }
+    for (std::size_t o = 0; o < output_count; ++o) {
+      EXPECT_EQ(wide.output[o], narrow.output[o] + 1);
+    }
+    EXPECT_EQ(same.first_link, wide.first_link);
+    EXPECT_EQ(same.source, wide.source);
+    EXPECT_EQ(same.weight, wide.weight);
+    EXPECT_EQ(same.output, wide.output);
+  }
+}
+
+TEST(Compile, SlotsFollowTheShape) {
+  // Links from all inputs to the first output, weights telling them apart.
+  Genome genome = hand_made({}, {{0, 0, 6, 10}, {1, 5, 6, 15}, {2, -1, 6, 9}});
+  genome.nodes.insert(genome.nodes.begin(), {-1, NodeKind::input});
+  const ControlShape shape = {
+      {core::Input::neighbours, core::Input::bias, core::Input::x, core::Input::y,
+       core::Input::morphogen_1, core::Input::morphogen_2, core::Input::time},
+      core::paper_outputs()};
+  EXPECT_THAT(compile(genome, shape).source, ElementsAre(6, 1, 0));
+  EXPECT_THAT(compile(genome, testing::with_neighbours()).source, ElementsAre(0, 5, 6));
+}
+
+TEST(Compile, AnOutputThatTheGenomeLacksIsZero) {
+  Genome genome = hand_made({}, {{0, bias_input, 6, 1}, {1, bias_input, 12, 2}});
+  std::erase_if(genome.nodes, [](const NodeGene& node) { return node.id == 8; });
+  EXPECT_THAT(check(genome), IsEmpty());
+  const Outputs outputs = evaluate(compile(genome), {1, 1, 1, 1, 1, 1});
+  EXPECT_THAT(outputs, ElementsAre(std::tanh(0.5), 0, 0, 0, 0, 0, std::tanh(1.0)));
+}
+
+TEST(Misfits, NamesWhatItHasAndWhatWasExpected) {
+  const std::string paper = "time, x, y, morphogen_1, morphogen_2, bias";
+  Genome genome = hand_made({}, {});
+  EXPECT_THAT(misfits(genome, {}), IsEmpty());
+  EXPECT_THAT(misfits(genome, testing::with_neighbours()), IsEmpty());
+  genome.nodes.insert(genome.nodes.begin(), {-1, NodeKind::input});
+  EXPECT_THAT(misfits(genome, testing::with_neighbours()), IsEmpty());
+  EXPECT_THAT(misfits(genome, {}),
+              ElementsAre("inputs: " + paper + ", neighbours: expected none but " + paper));
+  ControlShape immortal;
+  std::erase(immortal.outputs, core::Output::die);
+  EXPECT_THAT(misfits(hand_made({}, {}), immortal),
+              ElementsAre("outputs: inhibit, angle, die, morphogen_1, morphogen_2, period, phase: "
+                          "expected none but inhibit, angle, morphogen_1, morphogen_2, period, "
+                          "phase"));
+  EXPECT_EQ(misfits(genome, immortal).size(), 2u);
 }
 
 TEST(CheckGenome, AcceptsSoundGenomes) {
@@ -128,8 +227,13 @@ TEST(CheckGenome, NamesEveryFault) {
   genome.nodes[13].kind = NodeKind::input;
   only_fault(genome, "node 13: kind is input");
   genome = hand_made({}, {});
-  genome.nodes.erase(genome.nodes.begin() + 6);
-  only_fault(genome, "node 6: this output is missing");
+  genome.nodes[0] = {-100, NodeKind::input};
+  only_fault(genome,
+             "node -100: input with this id is unknown: expected inputs 0-5, -1 "
+             "(neighbours), outputs 6-12, hidden from 13 on");
+  genome = hand_made({}, {});
+  genome.nodes.resize(6);
+  only_fault(genome, "nodes: no output among them: expected one");
 }
 
 TEST(CheckGenome, ReportsAllFaultsAtOnce) {
@@ -146,7 +250,7 @@ TEST(CheckGenome, ACycleBehindACycleIsFoundOnce) {
 }
 
 TEST(CheckGenome, SurvivesAnything) {
-  EXPECT_EQ(check(Genome{}).size(), static_cast<std::size_t>(first_hidden));
+  EXPECT_EQ(check(Genome{}).size(), 2u);  // no input, no output
   evolve::RandomStream stream = test_stream(3);
   for (int i = 0; i < 2000; ++i) {
     Genome genome;
@@ -156,7 +260,9 @@ TEST(CheckGenome, SurvivesAnything) {
     }
     for (std::uint32_t l = stream.below(20); l > 0; --l)
       genome.links.push_back({any(), any(), any(), 1});
-    ASSERT_THAT(check(genome), ::testing::Not(IsEmpty()));  // never 13 nodes in order by chance
+    const auto faults = check(genome);
+    for (const std::string& fault : faults) ASSERT_FALSE(fault.empty());
+    if (faults.empty()) compile(genome, testing::with_neighbours());
   }
 }
 

@@ -95,15 +95,6 @@ TEST_F(Program, SaysWhatItCanDo) {
 TEST_F(Program, RefusesInOneLine) {
   const std::string see = " (see metamorph simulate --help)";
   expect_fault("simulate", "metamorph simulate: INPUT is required" + see);
-  expect_fault(
-      "simulate disc.json --scene moon",
-      "metamorph simulate: --scene: moon: expected water, land, land-right or slope" + see);
-  expect_fault("simulate disc.json --method euler",
-               "metamorph simulate: --method: euler: expected drift_kick_drift or "
-               "symplectic_euler" +
-                   see);
-  expect_fault("simulate disc.json --precision double",
-               "metamorph simulate: --precision: double: expected float32 or float64" + see);
   expect_fault("simulate disc.json --dt 0",
                "metamorph simulate: --dt: 0: expected a number from 1e-06 to 10 or auto" + see);
   expect_fault("simulate disc.json --dt Auto",
@@ -136,7 +127,7 @@ TEST_F(Program, TellsTheFaultsOfAllFiles) {
 }
 
 TEST_F(Program, GrowWritesTheStepsAskedFor) {
-  const auto result = run("grow row.json --steps-of-development 120 --at 120,60,0,60 --json");
+  const auto result = run("grow row.json --set development.steps=120 --at 120,60,0,60 --json");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const auto lines = json_lines(result.out);
   ASSERT_EQ(lines.size(), 3u);
@@ -154,16 +145,16 @@ TEST_F(Program, GrowChecksLinks) {
   // A row of n cells has n - 1 links. Neighbours are renewed at every tenth step and after births:
   // a cell in each of the 4 updates, at steps 0, 30, 60 and 90. The end is a renewal, too:
   // (0 + 3 * 1) + (1 + 3 * 2) + (2 + 3 * 3) + (3 + 3 * 4) + 4 links.
-  const auto result = run("grow row.json --check-links --steps-of-development 120 --at 120");
+  const auto result = run("grow row.json --check-links --set development.steps=120 --at 120");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out,
               HasSubstr("\n40 links at 17 renewals: all as a full triangulation has them\n"));
-  EXPECT_THAT(run("grow row.json --out unchecked --steps-of-development 120").out,
+  EXPECT_THAT(run("grow row.json --out unchecked --set development.steps=120").out,
               ::testing::Not(HasSubstr("renewals")));
 }
 
 TEST_F(Program, GrowReplacesOnlyWhenTold) {
-  const std::string grow = "grow dead.json --out d --steps-of-development 60 --at 60";
+  const std::string grow = "grow dead.json --out d --set development.steps=60 --at 60";
   EXPECT_EQ(run(grow).exit_code, 0);
   const std::string before = tests::text_of(here() / "d" / "embryo-0060.json");
   write_file(here() / "d" / "embryo-0060.json", "mine", Overwrite::yes);
@@ -178,7 +169,7 @@ TEST_F(Program, GrowReplacesOnlyWhenTold) {
 }
 
 TEST_F(Program, ABodyMovesAsItsGenomeDoes) {
-  const std::string rules = " --steps-of-development 300 --json";
+  const std::string rules = " --set development.steps=300 --json";
   const auto grown = json_lines(run("grow blob.json --out b --at 300" + rules).out);
   ASSERT_EQ(grown.size(), 1u);
   ASSERT_EQ(grown[0]["status"], "ok") << grown[0];
@@ -306,8 +297,8 @@ TEST_F(Program, SimulatePrintsWhatTheLibrarySays) {
                                            1};
   const core::Outcome outcome = core::simulate({&task, 1}, options).front();
   const auto result =
-      run("simulate disc.json --scene land --dt 0.05 --steps 100 --precision float64 --method "
-          "symplectic_euler --threads 2 --json");
+      run("simulate disc.json --scene land --dt 0.05 --steps 100 --threads 2 --json "
+          "--set locomotion.precision=float64 --set locomotion.method=symplectic_euler");
   EXPECT_EQ(result.out, outcome_json({{"file", "disc.json"}, {"scene", "land"}}, outcome) + "\n");
   const Json line = Json::parse(result.out);
   EXPECT_EQ(line["status"], core::name(outcome.status));
@@ -322,7 +313,7 @@ TEST_F(Program, SimulatePrintsWhatTheLibrarySays) {
 }
 
 TEST_F(Program, ADirectoryIsOneBatchWithoutItsEmbryos) {
-  EXPECT_EQ(run("grow blob.json --out many --at 0,300 --steps-of-development 300").exit_code, 0);
+  EXPECT_EQ(run("grow blob.json --out many --at 0,300 --set development.steps=300").exit_code, 0);
   write_body(here() / "many" / "a.json", tests::disc_body(7), Overwrite::no);
   const auto lines = json_lines(run("simulate many --steps 10 --json").out);
   ASSERT_EQ(lines.size(), 2u);
@@ -334,8 +325,9 @@ TEST_F(Program, ADirectoryIsOneBatchWithoutItsEmbryos) {
 }
 
 TEST_F(Program, TheTrajectoryEndsWhereTheOutcomeSays) {
-  const auto result =
-      run("simulate disc.json --steps 50 --every 25 --precision float64 --trajectory t.csv --json");
+  const auto result = run(
+      "simulate disc.json --steps 50 --every 25 --set locomotion.precision=float64 --trajectory "
+      "t.csv --json");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   std::istringstream csv(tests::text_of(here() / "t.csv"));
   std::string line;

@@ -133,11 +133,25 @@ TEST(Mutation, EndsWhereNothingIsPossible) {
   EXPECT_EQ(change, StructuralChange{});
 }
 
+TEST(Mutation, KeepsAndUsesANodeWithANegativeId) {
+  // Between the links of the seed genome and those of its descendants: added ones leave the node.
+  int added = 0;
+  wander(
+      restless(), 40, 60, 12,
+      [&](const Genome& genome) {
+        ASSERT_THAT(check(genome), IsEmpty());
+        ASSERT_EQ(genome.nodes.front(), (NodeGene{-1, NodeKind::input}));
+        for (const LinkGene& link : genome.links) added += link.from == -1 && link.to < 13;
+      },
+      testing::with_neighbours());
+  EXPECT_GT(added, 0);
+}
+
 // Every input linked to every output but for the given free pairs.
 Genome nearly_full(const std::set<std::pair<int, int>>& free) {
   Genome genome = hand_made({}, {});
-  for (int from = 0; from < core::network_inputs; ++from) {
-    for (int to = core::network_inputs; to < first_hidden; ++to) {
+  for (int from = 0; from <= bias_input; ++from) {
+    for (int to = bias_input + 1; to < first_hidden; ++to) {
       const int innovation = static_cast<int>(genome.links.size());
       if (!free.contains({from, to})) genome.links.push_back({innovation, from, to, 1});
     }

@@ -27,10 +27,10 @@ inline NeatSettings restless() {
 /// with another one; calls visit(genome) for each in every round.
 template <class Visit>
 std::vector<Genome> wander(const NeatSettings& settings, int count, int rounds, std::uint32_t index,
-                           Visit visit) {
+                           Visit visit, const ControlShape& shape = {}) {
   evolve::RandomStream stream = test_stream(index);
   std::vector<Genome> genomes;
-  for (int i = 0; i < count; ++i) genomes.push_back(seed_genome(settings, stream));
+  for (int i = 0; i < count; ++i) genomes.push_back(seed_genome(settings, stream, shape));
   int next_innovation = static_cast<int>(genomes.front().links.size());
   int next_node = first_hidden + settings.hidden_nodes;
   for (int round = 0; round < rounds; ++round) {
@@ -55,10 +55,17 @@ inline std::vector<Genome> wander(const NeatSettings& settings, int count, int r
   return wander(settings, count, rounds, index, [](const Genome&) {});
 }
 
-/// All inputs and outputs, the given hidden nodes, and the given links.
+/// The paper's signals and the neighbours.
+inline ControlShape with_neighbours() {
+  ControlShape shape;
+  shape.inputs.push_back(core::Input::neighbours);
+  return shape;
+}
+
+/// All inputs and outputs of the paper, the given hidden nodes, and the given links.
 inline Genome hand_made(const std::vector<int>& hidden, std::vector<LinkGene> links) {
   Genome genome;
-  for (int id = 0; id < first_hidden; ++id) genome.nodes.push_back({id, kind_of(id)});
+  for (int id = 0; id < first_hidden; ++id) genome.nodes.push_back({id, *kind_of(id)});
   for (const int id : hidden) genome.nodes.push_back({id, NodeKind::hidden});
   genome.links = std::move(links);
   return genome;

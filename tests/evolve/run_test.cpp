@@ -205,6 +205,23 @@ TEST(Run, CellsBetweenStagesBalance) {
   EXPECT_GE(rows.integer(4), 0);
 }
 
+TEST(Evaluator, WithoutDieNoCellDies) {
+  Experiment e = tiny_experiment(SearchKind::simple, 1);
+  e.neat.population = 60;
+  EvaluationSeconds seconds;
+  const auto deaths = [&] {
+    const auto genomes = first_generation(e.neat, 5, shape_of(e.development)).genomes;
+    int died = 0;
+    for (const Evaluated& one : Evaluator(e, 1).evaluate(genomes, {1, 1}, 0, seconds)) {
+      died += one.evaluation.died;
+    }
+    return died;
+  };
+  EXPECT_GT(deaths(), 0);
+  std::erase(e.development.outputs, core::Output::die);
+  EXPECT_EQ(deaths(), 0);
+}
+
 TEST(Evaluator, RememberedResultsAreThoseOfAFreshEvaluation) {
   const Experiment e = tiny_experiment(SearchKind::simple, 2);
   const PopulationState population = first_generation(e.neat, 5);

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "evolve/run/run.h"
+#include "evolve/run/run_reader.h"
 #include "tests/evolve/files.h"
 #include "tests/evolve/runs.h"
 #include "tests/outcomes.h"
@@ -18,7 +20,7 @@ using tests::TemporaryDirectory;
 using tests::text_of;
 using tests::tiny_experiment;
 
-constexpr int die_output = core::network_inputs + 2;
+constexpr int die_output = node_id(core::Output::die);
 
 TEST(Run, ThreadsChangeNoBit) {
   const TemporaryDirectory directory;
@@ -44,6 +46,21 @@ TEST(RunWithStarts, ThreadsChangeNoBit) {
     EXPECT_EQ(contents(directory.path() / (name + "-1")),
               contents(directory.path() / (name + "-2")));
   }
+}
+
+TEST(Run, AnotherInputIsInheritedAndThreadsChangeNoBit) {
+  const TemporaryDirectory directory;
+  Experiment e = tiny_experiment(SearchKind::simple, 4);
+  e.development.inputs.push_back(core::Input::neighbours);
+  run_whole(directory.path() / "1", e, 1);
+  run_whole(directory.path() / "2", e, 2);
+  EXPECT_EQ(contents(directory.path() / "1"), contents(directory.path() / "2"));
+  const RunReader run(directory.path() / "1");
+  EXPECT_EQ(run.experiment().development.inputs, e.development.inputs);
+  const Genome champion = run.champion(3).genome;
+  EXPECT_EQ(champion.nodes.front(), (NodeGene{node_id(core::Input::neighbours), NodeKind::input}));
+  EXPECT_TRUE(std::any_of(champion.links.begin(), champion.links.end(),
+                          [](const LinkGene& link) { return link.from == -1; }));
 }
 
 std::string text_of(const Evaluated& one) {

@@ -12,7 +12,8 @@ namespace metamorph::kernels {
 namespace {
 
 using core::Network;
-using core::network_inputs;
+
+constexpr int network_inputs = 6;
 
 NetworkView view_of(const Network& network) {
   return {network_inputs, network.node_count(), network.first_link.data(), network.source.data(),

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "metamorph/body.h"
 #include "metamorph/network.h"
+#include "metamorph/signals.h"
 #include "metamorph/status.h"
 
 namespace metamorph::core {
@@ -25,6 +27,8 @@ struct DevelopmentRules {
   double coordinate_scale = 10;  ///< the x and y inputs are divided by it
   double period_min = 30;        ///< time units
   double period_max = 120;
+  std::vector<Input> inputs = paper_inputs();     ///< of the control network, in order of its slots
+  std::vector<Output> outputs = paper_outputs();  ///< in order of Network::output; others read 0
 };
 
 /// An embryo between two steps, neighbours renewed. Cells in order of age (id ascending).
@@ -46,8 +50,14 @@ struct Embryo {
   Index cell_count() const { return static_cast<Index>(id.size()); }
 };
 
+/// What keeps a network from developing under these rules, in one line: other numbers of inputs or
+/// outputs than the rules have, lists that do not fit each other, a link or an output from a slot
+/// that is not computed before. Empty if nothing does.
+std::string check(const Network& network, const DevelopmentRules& rules);
+
 /// Develops every network as one batch and returns, for each of them, the embryo at each of
 /// `stages` (ascending steps, the last one <= rules.steps). Taking an embryo out leaves no trace.
+/// Precondition: check() finds nothing in any network.
 /// result[network][stage]; the same bits for any batch, order and thread count (0: all threads).
 std::vector<std::vector<Embryo>> develop(std::span<const Network> networks,
                                          const DevelopmentRules& rules, std::span<const int> stages,
