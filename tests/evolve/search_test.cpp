@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "evolve/search/novelty.h"
 #include "evolve/search/progressive.h"
+#include "metamorph/evaluator.h"
 #include "metamorph/searches.h"
 #include "tests/evolve/random_genomes.h"
 
@@ -24,6 +26,32 @@ Evaluation evaluation(std::vector<double> objectives, double factor = 1) {
 
 Evaluation behaving(std::vector<double> descriptors, double factor = 1) {
   return {{0}, std::move(descriptors), factor};
+}
+
+TEST(EvaluationOf, HasAllDistancesAndAllFinalPositionsOrNone) {
+  Evaluated one;
+  one.penalty = 0.1;
+  one.evaluated = {1, 1};
+  one.trials.resize(2);
+  one.trials[0].distance = 7;
+  one.trials[0].mean_position = {2, 3};
+  one.trials[1].distance = 8;
+  one.trials[1].mean_position = {4, 5};
+  const Evaluation whole = evaluation_of(one);
+  EXPECT_THAT(whole.objectives, ElementsAre(7, 8));
+  EXPECT_THAT(whole.descriptors, ElementsAre(2, 3, 4, 5));
+  EXPECT_EQ(whole.factor, 0.1);
+  for (const core::Status status : core::all_statuses) {
+    one.trials[1].status = status;
+    const bool moved = status == core::Status::ok || status == core::Status::not_settled;
+    EXPECT_EQ(evaluation_of(one).descriptors.empty(), !moved) << core::name(status);
+  }
+  one.trials[1].status = core::Status::ok;
+  one.evaluated[1] = 0;
+  EXPECT_TRUE(evaluation_of(one).descriptors.empty());
+  one.evaluated[1] = 1;
+  one.trials[0].mean_position[1] = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(evaluation_of(one).descriptors.empty());
 }
 
 TEST(Root, IsWithinRounding) {
