@@ -16,12 +16,6 @@ namespace {
 
 constexpr double no_limit = 1e9;  ///< upper end of ranges that have no natural one
 
-template <class Enum>
-Choice choice(Enum& field, std::vector<std::string_view> names) {
-  return {std::move(names), [&field] { return static_cast<std::size_t>(field); },
-          [&field](std::size_t i) { field = static_cast<Enum>(i); }};
-}
-
 /// The names of a catalogue of signals; the field holds those chosen, in the catalogue's order, so
 /// that the order in which they are written decides nothing.
 template <class Signal, std::size_t Count>
@@ -215,10 +209,8 @@ Section trial_section(Trial& t) {
            {"starts", &t.starts, 1, 1000, "times a body is run, from starts a hair apart"},
            {"start_displacement", &t.start_displacement, 0, 1,
             "d; largest move of a node in x and in y; the first start is the body as it is"},
-           {"starts_combine",
-            choice(t.starts_combine,
-                   {std::begin(starts_combine_names), std::end(starts_combine_names)}),
-            0, 0, "what counts of the starts; a failed one has distance 0"},
+           {"starts_combine", choice(t.starts_combine, starts_combine_names), 0, 0,
+            "what counts of the starts; a failed one has distance 0"},
            {"starts_renew", &t.starts_renew, 0, 0,
             "every generation has other starts, the first one moved as well: parents that live on "
             "are run again"}}};

@@ -58,9 +58,6 @@ inline constexpr std::string_view scene_bases[] = {"water", "land", "land-right"
 /// The environment of that name. Precondition: it is one of scene_bases.
 core::Scene base_scene(std::string_view base);
 
-/// [StartsCombine]
-inline constexpr std::string_view starts_combine_names[] = {"mean", "median", "least"};
-
 /// What the key accepts, as in "expected ...": "a whole number from 1 to 10".
 std::string expectation(const Key& key);
 /// The present value as TOML: 300, 0.25, true, "novelty". Numbers read back to the same bits.

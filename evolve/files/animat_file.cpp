@@ -8,7 +8,7 @@
 #include "evolve/files/embryo_file.h"
 #include "evolve/files/genome_file.h"
 #include "evolve/files/input_error.h"
-#include "evolve/files/json_detail.h"
+#include "evolve/files/json_text.h"
 #include "metamorph/extraction.h"
 
 namespace metamorph::evolve {

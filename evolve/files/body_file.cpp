@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "evolve/files/json_detail.h"
+#include "evolve/files/json_text.h"
 
 namespace metamorph::evolve {
 namespace {

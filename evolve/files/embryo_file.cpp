@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "evolve/files/body_file.h"
-#include "evolve/files/json_detail.h"
+#include "evolve/files/json_text.h"
 
 namespace metamorph::evolve {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "evolve/files/json_detail.h"
+#include "evolve/files/json_text.h"
 
 namespace metamorph::evolve {
 namespace {

@@ -1,6 +1,6 @@
 #include "evolve/files/trajectory_file.h"
 
-#include "evolve/files/json_detail.h"
+#include "evolve/files/json_text.h"
 
 namespace metamorph::evolve {
 

@@ -1,20 +1,33 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "metamorph/development.h"
 #include "metamorph/evaluation.h"
 #include "metamorph/locomotion.h"
+#include "metamorph/named.h"
 #include "metamorph/network.h"
 
 namespace metamorph::evolve {
 
 /// How the outcomes of a trial's starts become one.
 enum class StartsCombine { mean, median, least };
+inline constexpr std::array<core::Named<StartsCombine>, 3> starts_combine_names = {
+    {{StartsCombine::mean, "mean"},
+     {StartsCombine::median, "median"},
+     {StartsCombine::least, "least"}}};
+constexpr std::string_view name(StartsCombine rule) {
+  for (const auto& entry : starts_combine_names) {
+    if (entry.value == rule) return entry.name;
+  }
+  return "";
+}
 
 /// One evaluation of an individual: the body it has at a stage of development, in one scene, from
 /// one start or from several a hair apart. On land a gait may have several outcomes, and which one

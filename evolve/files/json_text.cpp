@@ -1,4 +1,4 @@
-#include "evolve/files/json_detail.h"
+#include "evolve/files/json_text.h"
 
 #include <algorithm>
 #include <cerrno>
