@@ -25,13 +25,15 @@ std::vector<core::Network> compile_all(const std::vector<Genome>& genomes,
 /// Grows the best individual by score through all trials, for the record: progressive search runs
 /// only larvae at first, but the figures show what adults their best would become.
 void complete_best(const std::vector<core::Network>& networks, Evaluator& evaluator,
-                   GenerationResult& result) {
+                   GenerationResult& result, std::vector<Evaluation>& evaluations) {
   const auto best = static_cast<std::size_t>(
       std::max_element(result.scores.begin(), result.scores.end()) - result.scores.begin());
   Evaluated& evaluated = result.individuals[best];
   const bool complete = std::all_of(evaluated.evaluated.begin(), evaluated.evaluated.end(),
                                     [](std::uint8_t ran) { return ran != 0; });
-  if (!complete) evaluated = evaluator.evaluate_fully(networks[best], result.generation);
+  if (complete) return;
+  evaluated = evaluator.evaluate_fully(networks[best], result.generation);
+  evaluations[best] = evaluation_of(evaluated);
 }
 
 GenerationResult run_generation(Search& search, Evaluator& evaluator, int threads,
@@ -53,9 +55,9 @@ GenerationResult run_generation(Search& search, Evaluator& evaluator, int thread
   result.scores = std::move(told.scores);
   result.search_rows = std::move(told.rows);
   seconds.search += watch.lap();
-  complete_best(networks, evaluator, result);
-  for (const Evaluated& one : result.individuals) {
-    result.eq6.push_back(geometric_mean(evaluation_of(one)));
+  complete_best(networks, evaluator, result, evaluations);
+  for (const Evaluation& evaluation : evaluations) {
+    result.eq6.push_back(geometric_mean(evaluation));
   }
   result.champion = best_position(result.eq6, result.scores);
   return result;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <stdexcept>
 
 #include "evolve/search/population_json.h"
@@ -44,7 +43,7 @@ Told NeatSearch::tell(std::span<const Evaluation> evaluations) {
         "descriptors or none");
   }
   Told told;
-  told.scores = scorer_->score(ask(), evaluations);
+  told.scores = scorer_->score(population_, evaluations);
   told.rows = rows_of(told.scores);
   next_generation(population_, settings_, told.scores,
                   scorer_->restarts_records(population_.generation), threads_);

@@ -102,14 +102,15 @@ class Novelty : public Scorer {
     state_.archive_threshold = settings.archive_threshold;
   }
 
-  std::vector<double> score(const Asked& asked, std::span<const Evaluation> evaluations) override {
+  std::vector<double> score(const PopulationState& population,
+                            std::span<const Evaluation> evaluations) override {
     std::vector<std::vector<double>> behaviours;
     std::vector<std::int64_t> ids;
     for (std::size_t i = 0; i < evaluations.size(); ++i) {
       behaviours.push_back(evaluations[i].descriptors);
-      ids.push_back(asked.lineage[i].id);
+      ids.push_back(population.individuals[i].id);
     }
-    generation_ = asked.generation;
+    generation_ = population.generation;
     recorded_ = state_.archive.size();
     std::vector<double> scores = novelty(behaviours, state_.archive, settings_.neighbours,
                                          state_.archive_threshold, threads_);

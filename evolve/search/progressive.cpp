@@ -51,8 +51,9 @@ class Progressive : public Scorer {
     std::tie(stage_, stages_) = ranked_stages(problem);
   }
 
-  std::vector<double> score(const Asked& asked, std::span<const Evaluation> evaluations) override {
-    const std::vector<double> weight = weights(asked.generation);
+  std::vector<double> score(const PopulationState& population,
+                            std::span<const Evaluation> evaluations) override {
+    const std::vector<double> weight = weights(population.generation);
     std::vector<double> scores;
     for (const Evaluation& evaluation : evaluations) {
       scores.push_back(progressive_fitness(evaluation, stage_, weight));

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "evolve/genetics/population.h"
 #include "metamorph/search.h"
 
 namespace metamorph::evolve {
@@ -16,7 +17,7 @@ class Scorer {
 
   /// One score >= 0 per individual; updates the scorer's memory. The factor of an evaluation
   /// multiplies its score.
-  virtual std::vector<double> score(const Asked& asked,
+  virtual std::vector<double> score(const PopulationState& population,
                                     std::span<const Evaluation> evaluations) = 0;
 
   /// [objectives] what is to be measured in a generation; empty: all.

@@ -7,7 +7,8 @@ namespace {
 
 class Simple : public Scorer {
  public:
-  std::vector<double> score(const Asked&, std::span<const Evaluation> evaluations) override {
+  std::vector<double> score(const PopulationState&,
+                            std::span<const Evaluation> evaluations) override {
     std::vector<double> scores;
     for (const Evaluation& evaluation : evaluations) scores.push_back(geometric_mean(evaluation));
     return scores;

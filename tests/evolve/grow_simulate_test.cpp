@@ -14,6 +14,7 @@
 #include "metamorph/locomotion.h"
 #include "metamorph/stability.h"
 #include "tests/bodies.h"
+#include "tests/evolve/plain_genomes.h"
 #include "tests/evolve/program.h"
 
 namespace metamorph::evolve {
@@ -23,26 +24,10 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+using tests::blob_genome;
 using tests::Json;
+using tests::row_genome;
 using tests::run_program;
-
-/// A genome without links: every output is 0, so no cell dies, all divide along the mean
-/// orientation of their neighbours, and the embryo is a row of cells along the x axis.
-Genome row_genome() {
-  Genome genome;
-  for (int id = 0; id < 13; ++id) {
-    genome.nodes.push_back({id, id < 6 ? NodeKind::input : NodeKind::output});
-  }
-  return genome;
-}
-
-/// As above, but the angle depends on the birth place: cells turn and fill the plane.
-Genome blob_genome() {
-  Genome genome = row_genome();
-  genome.links = {{1, 0, 7, 6.0}, {2, 1, 7, 5.0},  {3, 2, 7, -4.0},
-                  {4, 5, 7, 1.0}, {5, 1, 11, 3.0}, {6, 2, 12, 3.0}};
-  return genome;
-}
 
 /// The founder dies in the first update.
 Genome dead_genome() {

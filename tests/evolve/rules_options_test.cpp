@@ -14,6 +14,7 @@
 #include "metamorph/extraction.h"
 #include "metamorph/locomotion.h"
 #include "tests/bodies.h"
+#include "tests/evolve/plain_genomes.h"
 #include "tests/evolve/program.h"
 
 namespace metamorph::evolve {
@@ -22,22 +23,11 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
+using tests::blob_genome;
 using tests::Json;
 using tests::run_program;
 
-/// Cells turn by where they are, and fill the plane.
-Genome blob_genome() {
-  Genome genome;
-  for (const int id : input_ids) {
-    if (id >= 0) genome.nodes.push_back({id, NodeKind::input});
-  }
-  for (const int id : output_ids) genome.nodes.push_back({id, NodeKind::output});
-  genome.links = {{1, 0, 7, 6.0}, {2, 1, 7, 5.0},  {3, 2, 7, -4.0},
-                  {4, 5, 7, 1.0}, {5, 1, 11, 3.0}, {6, 2, 12, 3.0}};
-  return genome;
-}
-
-/// The same with an input of its own, which slows division where it is crowded.
+/// The blob with an input of its own, which slows division where it is crowded.
 Genome crowd_genome() {
   Genome genome = blob_genome();
   genome.nodes.insert(genome.nodes.begin(), {node_id(core::Input::neighbours), NodeKind::input});

@@ -186,7 +186,13 @@ TEST(Search, OfEveryKindGoesOnFromWhatItSavedAndItsTables) {
     const SearchSetup setup = setup_of(std::string(kind.name), {1, 2}, 9);
     const auto whole = make_search(setup);
     auto pieces = make_search(setup);
-    std::vector<std::vector<Row>> rows(whole->tables().size());
+    const std::vector<Table> tables = whole->tables();
+    std::vector<std::vector<Row>> rows(tables.size());
+    const auto rows_of = [&](const Table& table) {
+      std::size_t t = 0;
+      while (tables[t].name != table.name) ++t;
+      return rows[t];
+    };
     for (int g = 0; g < 9; ++g) {
       std::vector<Evaluation> four;
       for (int i = 0; i < 4; ++i) {
@@ -201,22 +207,12 @@ TEST(Search, OfEveryKindGoesOnFromWhatItSavedAndItsTables) {
         rows[t].insert(rows[t].end(), a.rows[t].begin(), a.rows[t].end());
       }
       const auto next = make_search(setup);
-      next->load(pieces->save(), [&](const Table& table) {
-        const std::vector<Table> tables = next->tables();
-        std::size_t t = 0;
-        while (tables[t].name != table.name) ++t;
-        return rows[t];
-      });
+      next->load(pieces->save(), rows_of);
       EXPECT_EQ(next->save(), whole->save());
       EXPECT_EQ(next->ask().genomes, whole->ask().genomes);
       EXPECT_EQ(next->ask().lineage, whole->ask().lineage);
       pieces = make_search(setup);
-      pieces->load(next->save(), [&](const Table& table) {
-        const std::vector<Table> tables = next->tables();
-        std::size_t t = 0;
-        while (tables[t].name != table.name) ++t;
-        return rows[t];
-      });
+      pieces->load(next->save(), rows_of);
     }
     EXPECT_THROW(make_search(setup)->load({}, [](const Table&) { return std::vector<Row>(); }),
                  std::runtime_error);
