@@ -46,9 +46,10 @@ Evaluation evaluation_of(const Evaluated& evaluated) {
 Problem problem_of(const EvaluationRules& rules, int generations) {
   Problem problem;
   for (const Trial& trial : rules.trials) {
+    const int objective = static_cast<int>(problem.objectives.size());
     problem.objectives.push_back({trial.name, trial.stage});
-    problem.descriptors.push_back(trial.name + ".x");
-    problem.descriptors.push_back(trial.name + ".y");
+    problem.descriptors.push_back({trial.name + ".x", objective, -50, 50, true});
+    problem.descriptors.push_back({trial.name + ".y", objective, -50, 50, true});
   }
   problem.generations = generations;
   problem.seed = rules.seed;

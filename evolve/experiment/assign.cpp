@@ -90,6 +90,30 @@ bool assign(const Key& key, const toml::node& node, std::string& fault) {
       *field = *value;
       return true;
     }
+    bool operator()(std::vector<double>* field) const {
+      const toml::array* items = node.as_array();
+      if (items == nullptr) return false;
+      std::vector<double> numbers;
+      for (const toml::node& item : *items) {
+        const double number = item.value<double>().value_or(std::nan(""));
+        if (!item.is_number() || !std::isfinite(number) || !in_range(number)) return false;
+        numbers.push_back(number);
+      }
+      *field = std::move(numbers);
+      return true;
+    }
+    bool operator()(std::vector<std::string>* field) const {
+      const toml::array* items = node.as_array();
+      if (items == nullptr) return false;
+      std::vector<std::string> names;
+      for (const toml::node& item : *items) {
+        const auto name = item.value_exact<std::string>();
+        if (!name || !is_name(*name)) return false;
+        names.push_back(*name);
+      }
+      *field = std::move(names);
+      return true;
+    }
     bool operator()(const Choice& choice) const {
       const auto value = node.value_exact<std::string>();
       if (!value) return false;

@@ -29,11 +29,7 @@ void check_trials_and_search(const Experiment& e, std::vector<Contradiction>& fo
       found.push_back({path + ".start_displacement", "more than 0: all starts would be one"});
     }
   }
-  const SearchKind& search = search_kind(e.search.kind);
-  if (search.contradictions == nullptr) return;
-  for (Contradiction& c : search.contradictions(search_setup_of(e, 1))) {
-    found.push_back(std::move(c));
-  }
+  for (Contradiction& c : faults(search_setup_of(e, 1))) found.push_back(std::move(c));
 }
 
 }  // namespace
@@ -43,16 +39,6 @@ std::vector<Contradiction> contradictions(const Experiment& e) {
   at_most(found, "development.period_min", e.development.period_min, "development.period_max",
           e.development.period_max);
   at_most(found, "body.min_cells", e.min_cells, "development.max_cells", e.development.max_cells);
-  at_most(found, "neat.species_min", e.neat.species_min, "neat.species_max", e.neat.species_max);
-  at_most(found, "neat.compatibility_floor", e.neat.compatibility_floor,
-          "neat.compatibility_threshold", e.neat.compatibility_threshold);
-  at_most(found, "neat.initial_weight", e.neat.initial_weight, "neat.weight_limit",
-          e.neat.weight_limit);
-  if (e.neat.mutate_weights <= 0) {
-    // A genome may have nothing to remove, no link to add and none to split; a roulette without
-    // weight changes could then draw for ever.
-    found.push_back({"neat.mutate_weights", "more than 0: the other mutations can all fail"});
-  }
   for (const NamedScene& named : e.scenes) {
     const core::Scene& scene = named.scene;
     const std::string path = "scenes." + scene.name;

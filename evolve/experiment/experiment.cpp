@@ -27,6 +27,13 @@ std::vector<int> Experiment::metamorphoses() const {
   return starts;
 }
 
+void apply(Preset preset, Experiment& e) {
+  e.preset = preset;
+  const bool paper = preset == Preset::paper;
+  e.neat = paper ? paper_neat_settings() : NeatSettings{};
+  e.search.values = paper ? paper_search_settings().values : SearchSettings{}.values;
+}
+
 EvaluationRules rules_of(const Experiment& e) {
   EvaluationRules rules{e.development,
                         e.min_cells,

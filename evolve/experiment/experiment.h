@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "metamorph/development.h"
 #include "metamorph/evaluator.h"
 #include "metamorph/locomotion.h"
+#include "metamorph/named.h"
 #include "metamorph/scene.h"
 #include "metamorph/searches.h"
 
@@ -26,11 +28,18 @@ struct LocomotionSettings {
   core::Method method = core::Method::drift_kick_drift;
 };
 
+/// What the settings of a search start from, before a file changes some: those that evolve best
+/// here (bench/SEARCH.md), or those of the paper.
+enum class Preset { standard, paper };
+inline constexpr std::array preset_names = {core::Named<Preset>{Preset::standard, "standard"},
+                                            core::Named<Preset>{Preset::paper, "paper"}};
+
 /// An experiment as data (MODEL section 7): everything that decides the outcome of a run.
 struct Experiment {
   std::string name;
   int generations = 2000;
   std::uint64_t seed = 1;
+  Preset preset = Preset::standard;
   core::DevelopmentRules development;
   int created_limit = 1024;      ///< cells ever created; more cost fitness
   double created_penalty = 0.1;  ///< factor on the fitness of those above the limit
@@ -46,6 +55,9 @@ struct Experiment {
   /// The steps at which the later stages of life begin: all stages but the last, ascending.
   std::vector<int> metamorphoses() const;
 };
+
+/// Sets the preset and every setting of the search as it has them.
+void apply(Preset preset, Experiment& experiment);
 
 /// The part that an evaluator has to know.
 EvaluationRules rules_of(const Experiment& experiment);

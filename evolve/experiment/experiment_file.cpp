@@ -39,6 +39,7 @@ class Reader {
       faults_.push_back(fmt::format("{}: name is missing: expected {}", source_,
                                     expectation(fixed_sections(experiment_)[0].keys[0])));
     }
+    read_preset(file);
     read_fixed_sections(file);
     read_trials(file);
     apply_overrides(false);
@@ -112,6 +113,19 @@ class Reader {
 
   void set_all(const Section& section, const toml::table& table) {
     for (const auto& [name, node] : table) set(section, name.str(), node, at(node));
+  }
+
+  /// The preset comes first: what else is given changes it. What is wrong with it is told later.
+  void read_preset(const toml::table& file) {
+    std::string given = file["preset"].value_or("");
+    for (const Override& change : overrides_) {
+      if (change.key != "preset") continue;
+      given = change.value;
+      std::erase(given, '"');
+    }
+    for (const auto& entry : preset_names) {
+      if (entry.name == given) apply(entry.value, experiment_);
+    }
   }
 
   void read_fixed_sections(const toml::table& file) {

@@ -66,11 +66,14 @@ Choice base_choice(NamedScene& named) {
 }
 
 Section top_section(Experiment& e) {
-  return {"",
-          "the run",
-          {{"name", &e.name, 0, 0, "name of the experiment; part of the run's directory"},
-           {"generations", &e.generations, 1, 1e7, "generations to evolve"},
-           {"seed", &e.seed, 0, 0x1p53, "seed of every random number of the run"}}};
+  return {
+      "",
+      "the run",
+      {{"name", &e.name, 0, 0, "name of the experiment; part of the run's directory"},
+       {"generations", &e.generations, 1, 1e7, "generations to evolve"},
+       {"seed", &e.seed, 0, 0x1p53, "seed of every random number of the run"},
+       {"preset", choice(e.preset, preset_names), 0, 0,
+        "where [search] and [neat] start from: what evolves best here, or the paper's search"}}};
 }
 
 Section development_section(Experiment& e) {
@@ -143,39 +146,13 @@ Section search_section(Experiment& e) {
 }
 
 Section neat_section(Experiment& e) {
-  NeatSettings& n = e.neat;
-  return {"neat",
-          "how genomes are bred",
-          {{"population", &n.population, 1, 1e6, "individuals per generation"},
-           {"hidden_nodes", &n.hidden_nodes, 0, 1e4, "hidden nodes of the first genomes"},
-           {"initial_weight", &n.initial_weight, 0, 1e6, "first weights are triangular up to this"},
-           {"species_min", &n.species_min, 1, 1e6, "fewer species: the threshold falls"},
-           {"species_max", &n.species_max, 1, 1e6, "more species: the threshold rises"},
-           {"compatibility_threshold", &n.compatibility_threshold, 0, 1e6, "of species, at first"},
-           {"compatibility_step", &n.compatibility_step, 0, 1e6, "its change per generation"},
-           {"compatibility_floor", &n.compatibility_floor, 0, 1e6, "its lowest value"},
-           {"weight_difference_factor", &n.weight_difference_factor, 0, 1e6,
-            "weight of the mean weight difference in the distance"},
-           {"young_age", &n.young_age, 0, no_limit, "species below this age get the bonus"},
-           {"young_bonus", &n.young_bonus, 0, 1e6, "factor on the fitness of young species"},
-           {"old_age", &n.old_age, 0, no_limit, "species above this age get the old factor"},
-           {"old_factor", &n.old_factor, 0, 1e6, "factor on the fitness of old species"},
-           {"stagnation", &n.stagnation, 1, no_limit, "generations without a new best"},
-           {"stagnation_factor", &n.stagnation_factor, 0, 1, "factor on the fitness after those"},
-           {"survival_share", &n.survival_share, 0, 1, "share of a species that may be parents"},
-           {"crossover", &n.crossover, 0, 1, "probability of two parents"},
-           {"mutation_after_crossover", &n.mutation_after_crossover, 0, 1, "probability"},
-           {"interspecies_crossover", &n.interspecies_crossover, 0, 1, "probability"},
-           {"multipoint", &n.multipoint, 0, 1, "probability of multipoint, else averaging"},
-           {"mutate_weights", &n.mutate_weights, 0, 1e6, "rate in the mutation roulette"},
-           {"add_link", &n.add_link, 0, 1e6, "rate in the mutation roulette"},
-           {"add_node", &n.add_node, 0, 1e6, "rate in the mutation roulette"},
-           {"remove_link", &n.remove_link, 0, 1e6, "rate in the mutation roulette"},
-           {"severe", &n.severe, 0, 1, "share of weight mutations that redraw all weights"},
-           {"weight_change", &n.weight_change, 0, 1e6, "largest change of a weight"},
-           {"weight_limit", &n.weight_limit, 1e-6, 1000, "largest absolute weight"},
-           {"fitness_floor", &n.fitness_floor, 0, 1e6, "least fitness before sharing"},
-           {"clone_tries", &n.clone_tries, 0, 1e6, "times an identical child is bred again"}}};
+  Section section{"neat", "how genomes are bred", {}};
+  for (const NeatField& field : neat_fields) {
+    Key key{field.name, static_cast<int*>(nullptr), field.low, field.high, field.meaning};
+    std::visit([&](auto member) { key.field = &(e.neat.*member); }, field.member);
+    section.keys.push_back(std::move(key));
+  }
+  return section;
 }
 
 /// "time", "x", "y"
@@ -274,6 +251,12 @@ std::string expectation(const Key& key) {
     std::string operator()(const std::string*) const {
       return "a name of letters, digits, '-', '_' and '.', in quotes";
     }
+    std::string operator()(const std::vector<double>*) const {
+      return "a list of numbers " + range_text(key.low, key.high);
+    }
+    std::string operator()(const std::vector<std::string>*) const {
+      return "a list of names, each in quotes";
+    }
     std::string operator()(const Choice& c) const { return "one of " + quoted(c.names); }
     std::string operator()(const NameList& list) const {
       std::string text = "a list of one or more of " + quoted(list.names) + ", each once";
@@ -296,6 +279,12 @@ std::string value_text(const Key& key) {
     }
     std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
     std::string operator()(const std::string* value) const { return '"' + *value + '"'; }
+    std::string operator()(const std::vector<double>* values) const {
+      return fmt::format("[{}]", fmt::join(*values, ", "));
+    }
+    std::string operator()(const std::vector<std::string>* names) const {
+      return fmt::format("[{}]", quoted({names->begin(), names->end()}));
+    }
     std::string operator()(const Choice& c) const {
       return fmt::format("\"{}\"", c.names[c.get()]);
     }

@@ -35,7 +35,9 @@ struct NameList {
 /// Reading, --set, the configuration in the record and the help are all driven by these.
 struct Key {
   std::string_view name;
-  std::variant<int*, std::uint64_t*, double*, bool*, std::string*, Choice, Step, NameList> field;
+  std::variant<int*, std::uint64_t*, double*, bool*, std::string*, std::vector<double>*,
+               std::vector<std::string>*, Choice, Step, NameList>
+      field;
   double low = 0, high = 0;  ///< range of a number, both ends included
   std::string_view help;     ///< what it is, with its unit
 };

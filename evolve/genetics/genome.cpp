@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
+#include <cstdlib>
 #include <set>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -104,6 +105,28 @@ Sweep sweep(const Adjacency& graph) {
   return result;
 }
 
+// What a person calls an input or output.
+std::string signal_name(int id) {
+  for (const auto& [signal, name, meaning] : core::input_signals) {
+    if (node_id(signal) == id) return std::string(name);
+  }
+  for (const auto& [signal, name, meaning] : core::output_signals) {
+    if (node_id(signal) == id) return std::string(name);
+  }
+  return id > first_free_output ? fmt::format("free input {}", first_free_input - id)
+                                : fmt::format("free output {}", first_free_output - id);
+}
+
+// The paper's first, then in the order in which they came to be.
+std::string names_of(std::vector<int> ids) {
+  std::sort(ids.begin(), ids.end(), [](int a, int b) {
+    return std::pair(a < 0, std::abs(a)) < std::pair(b < 0, std::abs(b));
+  });
+  std::vector<std::string> names;
+  for (const int id : ids) names.push_back(signal_name(id));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 // "inputs 0-5, -1 (neighbours), outputs 6-12, hidden from 13 on": the paper's in one range.
 std::string known_ids() {
   const auto listed = [](std::string_view kind, const auto& signals, const auto& ids,
@@ -115,10 +138,10 @@ std::string known_ids() {
     return text;
   };
   return fmt::format(
-      "{}, {}, hidden from {} on",
+      "{}, {}, free inputs {} to {}, free outputs {} to {}, hidden from {} on",
       listed("inputs", core::input_signals, input_ids, core::paper_inputs().size()),
       listed("outputs", core::output_signals, output_ids, core::paper_outputs().size()),
-      first_hidden);
+      first_free_input, first_free_output + 1, first_free_output, least_id, first_hidden);
 }
 
 void check_nodes(const Genome& genome, std::vector<std::string>& faults) {
@@ -201,7 +224,23 @@ std::optional<NodeKind> kind_of(int id) {
   if (id >= first_hidden) return NodeKind::hidden;
   if (contains(output_ids, id)) return NodeKind::output;
   if (contains(input_ids, id)) return NodeKind::input;
+  if (id <= first_free_input && id > first_free_output) return NodeKind::input;
+  if (id <= first_free_output && id >= least_id) return NodeKind::output;
   return std::nullopt;
+}
+
+ControlShape free_shape(int inputs, int outputs) {
+  for (const int count : {inputs, outputs}) {
+    if (count < 1 || count > free_signals) {
+      throw std::invalid_argument(fmt::format("free_shape({}, {}): expected from 1 to {} of each",
+                                              inputs, outputs, free_signals));
+    }
+  }
+  ControlShape shape({}, {});
+  for (int i = 0; i < inputs; ++i) shape.inputs.push_back(first_free_input - i);
+  shape.inputs.push_back(bias_input);
+  for (int o = 0; o < outputs; ++o) shape.outputs.push_back(first_free_output - o);
+  return shape;
 }
 
 std::vector<std::string> check(const Genome& genome) {
@@ -220,30 +259,31 @@ std::vector<std::string> check(const Genome& genome) {
 
 std::vector<std::string> misfits(const Genome& genome, const ControlShape& shape) {
   std::vector<std::string> lines;
-  const auto compare = [&](std::string_view what, const auto& catalogue, const auto& expected) {
-    std::vector<std::string_view> has, may;
+  const auto compare = [&](NodeKind kind, std::string_view what, const std::vector<int>& expected) {
+    std::vector<int> ids;
     bool fits = true;
-    for (const auto& [signal, name, meaning] : catalogue) {
-      const bool allowed = std::find(expected.begin(), expected.end(), signal) != expected.end();
-      if (allowed) may.push_back(name);
-      if (position(genome, node_id(signal)) < 0) continue;
-      has.push_back(name);
-      fits &= allowed;
+    for (const NodeGene& node : genome.nodes) {
+      if (node.kind != kind) continue;
+      ids.push_back(node.id);
+      fits &= std::find(expected.begin(), expected.end(), node.id) != expected.end();
     }
-    if (fits) return;
-    lines.push_back(fmt::format("{}: {}: expected none but {}", what, fmt::join(has, ", "),
-                                fmt::join(may, ", ")));
+    if (!fits)
+      lines.push_back(
+          fmt::format("{}: {}: expected none but {}", what, names_of(ids), names_of(expected)));
   };
-  compare("inputs", core::input_signals, shape.inputs);
-  compare("outputs", core::output_signals, shape.outputs);
+  compare(NodeKind::input, "inputs", shape.inputs);
+  compare(NodeKind::output, "outputs", shape.outputs);
   return lines;
 }
 
 core::Network compile(const Genome& genome, const ControlShape& shape) {
-  assert(misfits(genome, shape).empty());
   const Adjacency graph = outgoing_links(genome);
   const Sweep swept = sweep(graph);
   const std::size_t nodes = genome.nodes.size();
+  if (std::find(graph.from.begin(), graph.from.end(), -1) != graph.from.end() ||
+      swept.order.size() != nodes || !misfits(genome, shape).empty()) {
+    throw std::invalid_argument("compile: expected a sound genome that fits the shape");
+  }
 
   // Backwards along the order: which nodes reach an output.
   std::vector<bool> useful(nodes, false);
@@ -274,7 +314,7 @@ core::Network compile(const Genome& genome, const ControlShape& shape) {
   network.inputs = static_cast<int>(shape.inputs.size());
   std::vector<int> slot(nodes, -1);
   for (std::size_t i = 0; i < shape.inputs.size(); ++i) {
-    const int n = position(genome, node_id(shape.inputs[i]));
+    const int n = position(genome, shape.inputs[i]);
     if (n >= 0) slot[static_cast<std::size_t>(n)] = static_cast<int>(i);
   }
   for (std::size_t n = 0; n < nodes; ++n) {
@@ -303,8 +343,8 @@ core::Network compile(const Genome& genome, const ControlShape& shape) {
     network.source[at] = slot[static_cast<std::size_t>(graph.from[l])];
     network.weight[at] = static_cast<float>(genome.links[l].weight);
   }
-  for (const core::Output output : shape.outputs) {
-    const int n = position(genome, node_id(output));
+  for (const int output : shape.outputs) {
+    const int n = position(genome, output);
     if (n >= 0) {
       network.output.push_back(slot[static_cast<std::size_t>(n)]);
       continue;

@@ -53,7 +53,8 @@ void Innovations::apply(const StructuralChange& change, const NeatSettings& sett
     genome.links.erase(old);
     const Split split = split_numbers(change.from, change.to);
     insert_node(genome, split.node);
-    insert_link(genome, {split.in, change.from, split.node, std::min(1.0, settings.weight_limit)});
+    insert_link(genome, {split.in, change.from, split.node,
+                         std::min(settings.node_weight, settings.weight_limit)});
     insert_link(genome, {split.out, split.node, change.to, weight});
   }
 }

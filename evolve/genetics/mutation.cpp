@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <tuple>
 #include <utility>
@@ -15,17 +16,36 @@ std::uint32_t draw_below(std::size_t n, RandomStream& stream) {
   return stream.below(static_cast<std::uint32_t>(n));
 }
 
-bool mutate_weights(Genome& genome, const NeatSettings& settings, RandomStream& stream) {
-  if (genome.links.empty()) return false;
-  if (stream.chance(settings.severe)) {
-    for (LinkGene& link : genome.links) link.weight = new_weight(settings, stream);
-  } else {
-    for (LinkGene& link : genome.links) {
-      link.weight = std::clamp(link.weight + settings.weight_change * stream.triangular(),
-                               -settings.weight_limit, settings.weight_limit);
-    }
+// A share from `least` (0: from 1 / links) to 1, log-uniform to within 6 %: the logarithm to base 2
+// is taken linear between powers of two, so that the bits are the same on every machine.
+double drawn_share(double least, std::size_t links, RandomStream& stream) {
+  const double low = least > 0 ? least : 1 / static_cast<double>(links);
+  if (!(low < 1)) return 1;
+  int exponent = 0;
+  const double mantissa = std::frexp(1 / low, &exponent);  // [1/2, 1)
+  const double octaves = stream.uniform() * (exponent - 2 + 2 * mantissa);
+  const double whole = std::floor(octaves);
+  return low * std::ldexp(1 + (octaves - whole), static_cast<int>(whole));
+}
+
+MutationKind mutate_weights(Genome& genome, const NeatSettings& settings, RandomStream& stream) {
+  if (genome.links.empty()) return MutationKind::none;
+  const bool redraw = stream.chance(settings.severe);
+  const auto change = [&](LinkGene& link) {
+    link.weight = redraw ? new_weight(settings, stream)
+                         : std::clamp(link.weight + settings.weight_change * stream.triangular(),
+                                      -settings.weight_limit, settings.weight_limit);
+  };
+  const double share = drawn_share(redraw ? settings.redrawn_share : settings.moved_share,
+                                   genome.links.size(), stream);
+  bool changed = false;
+  for (LinkGene& link : genome.links) {
+    if (share < 1 && !stream.chance(share)) continue;
+    change(link);
+    changed = true;
   }
-  return true;
+  if (!changed) change(genome.links[draw_below(genome.links.size(), stream)]);
+  return redraw ? MutationKind::redraw : MutationKind::weights;
 }
 
 bool linked(const Genome& genome, int from, int to) {
@@ -111,21 +131,13 @@ bool remove_link(Genome& genome, RandomStream& stream) {
   return true;
 }
 
-bool attempt(MutationKind kind, Genome& genome, StructuralChange& change,
-             const NeatSettings& settings, RandomStream& stream) {
-  switch (kind) {
-    case MutationKind::weights:
-      return mutate_weights(genome, settings, stream);
-    case MutationKind::add_link:
-      return add_link(genome, change, settings, stream);
-    case MutationKind::add_node:
-      return add_node(genome, change, stream);
-    case MutationKind::remove_link:
-      return remove_link(genome, stream);
-    case MutationKind::none:
-      break;
-  }
-  return false;
+MutationKind attempt(MutationKind kind, Genome& genome, StructuralChange& change,
+                     const NeatSettings& settings, RandomStream& stream) {
+  if (kind == MutationKind::weights) return mutate_weights(genome, settings, stream);
+  const bool done = kind == MutationKind::add_link   ? add_link(genome, change, settings, stream)
+                    : kind == MutationKind::add_node ? add_node(genome, change, stream)
+                                                     : remove_link(genome, stream);
+  return done ? kind : MutationKind::none;
 }
 
 }  // namespace
@@ -151,7 +163,8 @@ MutationKind mutate(Genome& genome, StructuralChange& change, const NeatSettings
       left -= wheel[k].second;
       if (left < 0) break;
     }
-    if (attempt(wheel[drawn].first, genome, change, settings, stream)) return wheel[drawn].first;
+    const MutationKind done = attempt(wheel[drawn].first, genome, change, settings, stream);
+    if (done != MutationKind::none) return done;
     wheel[drawn].second = 0;
   }
 }

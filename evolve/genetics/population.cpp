@@ -30,8 +30,9 @@ PopulationState first_generation(const NeatSettings& settings, std::uint64_t see
   return state;
 }
 
-void next_generation(PopulationState& state, const NeatSettings& settings,
-                     std::span<const double> fitness, bool restart_records, int threads) {
+std::vector<EndedSpecies> next_generation(PopulationState& state, const NeatSettings& settings,
+                                          std::span<const double> fitness, bool restart_records,
+                                          int threads) {
   if (fitness.size() != state.genomes.size() ||
       std::any_of(fitness.begin(), fitness.end(),
                   [](double f) { return !(std::isfinite(f) && f >= 0); })) {
@@ -50,16 +51,22 @@ void next_generation(PopulationState& state, const NeatSettings& settings,
     const auto id_of = [&](int parent) {
       return parent < 0 ? -1 : state.individuals[static_cast<std::size_t>(parent)].id;
     };
-    individuals.push_back({state.next_individual++, id_of(child.parent_a), id_of(child.parent_b)});
+    individuals.push_back(
+        {state.next_individual++, id_of(child.parent_a), id_of(child.parent_b), -1, child.origin});
   }
 
   // A species that was given no child ends here; the others go on, represented by their champion.
   state.compatibility_threshold = adapted_threshold(
       state.compatibility_threshold, static_cast<int>(state.species.size()), settings);
   std::vector<Species> species;
+  std::vector<EndedSpecies> ended;
   for (std::size_t s = 0; s < plans.size(); ++s) {
-    if (plans[s].offspring == 0) continue;
     Species& heir = state.species[s];
+    if (plans[s].offspring == 0) {
+      ended.push_back({heir.id, heir.stagnant >= settings.stagnation ? SpeciesEnd::stagnant
+                                                                     : SpeciesEnd::outcompeted});
+      continue;
+    }
     heir.representative = state.genomes[static_cast<std::size_t>(ranked[s].front())];
     ++heir.age;
     species.push_back(std::move(heir));
@@ -71,7 +78,12 @@ void next_generation(PopulationState& state, const NeatSettings& settings,
     state.genomes[c] = std::move(children[c].genome);
   }
   ++state.generation;
-  place_in_species(state, settings, threads);
+  for (const int id : place_in_species(state, settings, threads)) {
+    ended.push_back({id, SpeciesEnd::absorbed});
+  }
+  std::sort(ended.begin(), ended.end(),
+            [](const EndedSpecies& a, const EndedSpecies& b) { return a.id < b.id; });
+  return ended;
 }
 
 }  // namespace metamorph::evolve

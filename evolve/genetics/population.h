@@ -1,19 +1,35 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "metamorph/genome.h"
+#include "metamorph/named.h"
 #include "metamorph/neat_settings.h"
 
 namespace metamorph::evolve {
+
+/// How an individual came to be: drawn for the first generation, a champion's copy, by crossover
+/// alone, or by a mutation (after a crossover or not).
+enum class Origin { first, copy, crossover, weights, redraw, add_link, add_node, remove_link };
+inline constexpr std::array origin_names = {
+    core::Named<Origin>{Origin::first, "first"},
+    core::Named<Origin>{Origin::copy, "copy"},
+    core::Named<Origin>{Origin::crossover, "crossover"},
+    core::Named<Origin>{Origin::weights, "weights"},
+    core::Named<Origin>{Origin::redraw, "redraw"},
+    core::Named<Origin>{Origin::add_link, "add_link"},
+    core::Named<Origin>{Origin::add_node, "add_node"},
+    core::Named<Origin>{Origin::remove_link, "remove_link"}};
 
 /// Who an individual is. Parent -1: none (generation 0); both equal -1 or second -1: asexual.
 struct Individual {
   std::int64_t id = 0;  ///< counts individuals ever bred in the run
   std::int64_t parent_a = -1, parent_b = -1;
   int species = -1;  ///< id of the species it was placed in
+  Origin origin = Origin::first;
   bool operator==(const Individual&) const = default;
 };
 
@@ -25,6 +41,20 @@ struct Species {
   int stagnant = 0;       ///< generations without a new best
   int size = 0;           ///< members in the present generation
   bool operator==(const Species&) const = default;
+};
+
+/// Why a species is no more: it stood still for too long, its share of the offspring rounded to
+/// none, or all its children were placed elsewhere.
+enum class SpeciesEnd { stagnant, outcompeted, absorbed };
+inline constexpr std::array species_end_names = {
+    core::Named<SpeciesEnd>{SpeciesEnd::stagnant, "stagnant"},
+    core::Named<SpeciesEnd>{SpeciesEnd::outcompeted, "outcompeted"},
+    core::Named<SpeciesEnd>{SpeciesEnd::absorbed, "absorbed"}};
+
+struct EndedSpecies {
+  int id = 0;
+  SpeciesEnd why = SpeciesEnd::absorbed;
+  bool operator==(const EndedSpecies&) const = default;
 };
 
 /// Everything that decides how a run goes on: plain data, so that a checkpoint holds all of it.
@@ -51,8 +81,10 @@ PopulationState first_generation(const NeatSettings& settings, std::uint64_t see
 /// one per genome (std::invalid_argument otherwise). `restart_records`: every species forgets its
 /// best fitness first (progressive search while its weight changes). The result depends on the
 /// arguments alone; the same bits for any thread count. The fittest individual always lives on as
-/// a copy. Children stand in order of species, each species' champion first.
-void next_generation(PopulationState& state, const NeatSettings& settings,
-                     std::span<const double> fitness, bool restart_records, int threads);
+/// a copy. Children stand in order of species, each species' champion first. Returns the species
+/// that this ended, ascending.
+std::vector<EndedSpecies> next_generation(PopulationState& state, const NeatSettings& settings,
+                                          std::span<const double> fitness, bool restart_records,
+                                          int threads);
 
 }  // namespace metamorph::evolve

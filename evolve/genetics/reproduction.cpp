@@ -87,6 +87,23 @@ std::vector<SpeciesPlan> plan_reproduction(const PopulationState& state,
 
 namespace {
 
+Origin origin_of(MutationKind kind) {
+  switch (kind) {
+    case MutationKind::redraw:
+      return Origin::redraw;
+    case MutationKind::add_link:
+      return Origin::add_link;
+    case MutationKind::add_node:
+      return Origin::add_node;
+    case MutationKind::remove_link:
+      return Origin::remove_link;
+    case MutationKind::weights:
+    case MutationKind::none:
+      break;
+  }
+  return Origin::weights;
+}
+
 // Where in the new generation a child stands.
 struct Slot {
   std::size_t species;
@@ -140,8 +157,10 @@ struct Breeder {
       result.genome = genome(result.parent_a);
     }
     RandomStream mutation = stream(Purpose::mutation);
+    result.origin = result.parent_b < 0 ? Origin::copy : Origin::crossover;
     if (result.parent_b < 0 || mutation.chance(settings.mutation_after_crossover)) {
-      mutate(result.genome, result.change, settings, mutation);
+      const MutationKind kind = mutate(result.genome, result.change, settings, mutation);
+      if (kind != MutationKind::none) result.origin = origin_of(kind);
     }
     return result;
   }

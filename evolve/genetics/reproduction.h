@@ -33,6 +33,7 @@ struct Child {
   Genome genome;
   StructuralChange change;
   int parent_a = -1, parent_b = -1;  ///< indices in the present generation; b -1: asexual
+  Origin origin = Origin::copy;
 };
 
 /// Breeds all children, in order of species, champions' copies first in each. A child (no copy)

@@ -40,12 +40,16 @@ void record_best(std::vector<Species>& species, const std::vector<std::vector<in
 }
 
 double adapted_threshold(double threshold, int species, const NeatSettings& settings) {
-  if (species < settings.species_min) threshold -= settings.compatibility_step;
-  if (species > settings.species_max) threshold += settings.compatibility_step;
+  const int most = settings.species_members == 0
+                       ? settings.population
+                       : std::max(1, settings.population / settings.species_members);
+  if (species < std::min(settings.species_min, most)) threshold -= settings.compatibility_step;
+  if (species > std::min(settings.species_max, most)) threshold += settings.compatibility_step;
   return std::max(threshold, settings.compatibility_floor);
 }
 
-void place_in_species(PopulationState& state, const NeatSettings& settings, int threads) {
+std::vector<int> place_in_species(PopulationState& state, const NeatSettings& settings,
+                                  int threads) {
   const std::size_t old_species = state.species.size();
   const int genomes = static_cast<int>(state.genomes.size());
   const double threshold = state.compatibility_threshold;
@@ -89,7 +93,12 @@ void place_in_species(PopulationState& state, const NeatSettings& settings, int 
     state.individuals[i].species = state.species[place[i]].id;
     ++state.species[place[i]].size;
   }
+  std::vector<int> empty;
+  for (const Species& species : state.species) {
+    if (species.size == 0) empty.push_back(species.id);
+  }
   std::erase_if(state.species, [](const Species& species) { return species.size == 0; });
+  return empty;
 }
 
 }  // namespace metamorph::evolve

@@ -1,13 +1,22 @@
 #include "evolve/search/neat_search.h"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "evolve/search/population_json.h"
 #include "metamorph/threads.h"
 
 namespace metamorph::evolve {
+
+namespace {
+// Tables that every NEAT search has, in this order; those of its scorer follow.
+constexpr std::size_t origins_table = 3, changes_table = 4, own_tables = 5;
+}  // namespace
 
 nlohmann::json Scorer::save() const { return nullptr; }
 
@@ -25,9 +34,14 @@ Asked NeatSearch::ask() const {
   for (const Individual& individual : population_.individuals) {
     asked.lineage.push_back({individual.id, individual.parent_a, individual.parent_b});
   }
-  asked.measured = scorer_->measured(population_.generation);
-  if (asked.measured.empty()) asked.measured.assign(problem_.objectives.size(), 1);
+  asked.measured = measured();
   return asked;
+}
+
+std::vector<std::uint8_t> NeatSearch::measured() const {
+  std::vector<std::uint8_t> measured = scorer_->measured(population_.generation);
+  if (measured.empty()) measured.assign(problem_.objectives.size(), 1);
+  return measured;
 }
 
 Told NeatSearch::tell(std::span<const Evaluation> evaluations) {
@@ -44,9 +58,37 @@ Told NeatSearch::tell(std::span<const Evaluation> evaluations) {
   }
   Told told;
   told.scores = scorer_->score(population_, evaluations);
+  std::vector<double> merits;
+  const std::vector<std::uint8_t> measured = this->measured();
+  for (Evaluation evaluation : evaluations) {
+    std::size_t kept = 0;
+    for (std::size_t o = 0; o < measured.size(); ++o) {
+      if (measured[o] != 0) evaluation.objectives[kept++] = evaluation.objectives[o];
+    }
+    evaluation.objectives.resize(kept);
+    merits.push_back(geometric_mean(evaluation));
+  }
   told.rows = rows_of(told.scores);
-  next_generation(population_, settings_, told.scores,
-                  scorer_->restarts_records(population_.generation), threads_);
+  told.rows[origins_table] = origin_rows(merits);
+  std::vector<Row>& changes = told.rows[changes_table];
+  const auto note = [&](int id, std::string_view change) {
+    changes.push_back(
+        {std::int64_t{population_.generation}, std::int64_t{id}, std::string(change)});
+  };
+  if (population_.generation == 0) {
+    for (const Species& species : population_.species) note(species.id, "founded");
+  }
+  parents_ = std::move(merits);
+  first_parent_ = population_.individuals.front().id;
+  const int next_species = population_.next_species;
+  for (const auto& [id, why] :
+       next_generation(population_, settings_, told.scores,
+                       scorer_->restarts_records(population_.generation), threads_)) {
+    note(id, species_end_names[static_cast<std::size_t>(why)].name);
+  }
+  for (const Species& species : population_.species) {
+    if (species.id >= next_species) note(species.id, "founded");
+  }
   return told;
 }
 
@@ -70,6 +112,21 @@ std::vector<Table> NeatSearch::tables() const {
         {"stagnant", Type::integer},
         {"best_score", Type::real},
         {"mean_score", Type::real}},
+       2},
+      // Individuals by how they came to be (evolve/genetics/population.h), with a crossover or not:
+      // better than both parents were by the geometric mean of the measured objectives, or dead
+      // (0).
+      {"origins",
+       {{"generation", Type::integer},
+        {"origin", Type::text},
+        {"crossed", Type::integer},
+        {"children", Type::integer},
+        {"better", Type::integer},
+        {"dead", Type::integer}},
+       3},
+      // In which generation a species was founded, or why it is no more.
+      {"species_changes",
+       {{"generation", Type::integer}, {"species", Type::integer}, {"change", Type::text}},
        2}};
   for (Table& table : scorer_->tables()) tables.push_back(std::move(table));
   return tables;
@@ -77,7 +134,7 @@ std::vector<Table> NeatSearch::tables() const {
 
 std::vector<std::vector<Row>> NeatSearch::rows_of(const std::vector<double>& scores) const {
   const std::int64_t generation = population_.generation;
-  std::vector<std::vector<Row>> rows(3);
+  std::vector<std::vector<Row>> rows(own_tables);
   rows[0].push_back({generation, static_cast<std::int64_t>(population_.species.size()),
                      population_.compatibility_threshold});
   for (std::size_t i = 0; i < population_.individuals.size(); ++i) {
@@ -101,9 +158,37 @@ std::vector<std::vector<Row>> NeatSearch::rows_of(const std::vector<double>& sco
   return rows;
 }
 
+std::vector<Row> NeatSearch::origin_rows(const std::vector<double>& merits) const {
+  struct Count {
+    std::int64_t children = 0, better = 0, dead = 0;
+  };
+  std::map<std::pair<std::string_view, bool>, Count> counts;
+  const auto parent_merit = [&](std::int64_t id) {
+    return id < 0 ? -1.0 : parents_[static_cast<std::size_t>(id - first_parent_)];
+  };
+  for (std::size_t i = 0; i < merits.size(); ++i) {
+    const Individual& child = population_.individuals[i];
+    Count& count =
+        counts[{origin_names[static_cast<std::size_t>(child.origin)].name, child.parent_b >= 0}];
+    ++count.children;
+    count.dead += merits[i] == 0 ? 1 : 0;
+    if (child.parent_a < 0) continue;
+    count.better +=
+        merits[i] > std::max(parent_merit(child.parent_a), parent_merit(child.parent_b)) ? 1 : 0;
+  }
+  std::vector<Row> rows;
+  for (const auto& [key, count] : counts) {
+    rows.push_back({std::int64_t{population_.generation}, std::string(key.first),
+                    std::int64_t{key.second}, count.children, count.better, count.dead});
+  }
+  return rows;
+}
+
 std::vector<std::uint8_t> NeatSearch::save() const {
-  return nlohmann::json::to_cbor(
-      nlohmann::json{{"population", to_json(population_)}, {"scorer", scorer_->save()}});
+  return nlohmann::json::to_cbor(nlohmann::json{{"population", to_json(population_)},
+                                                {"parents", parents_},
+                                                {"first_parent", first_parent_},
+                                                {"scorer", scorer_->save()}});
 }
 
 void NeatSearch::load(std::span<const std::uint8_t> state, const RowsOf& rows) {
@@ -118,6 +203,8 @@ void NeatSearch::load(std::span<const std::uint8_t> state, const RowsOf& rows) {
                                std::to_string(problem_.seed));
     }
     population_ = std::move(population);
+    json.at("parents").get_to(parents_);
+    json.at("first_parent").get_to(first_parent_);
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(error.what());
   }

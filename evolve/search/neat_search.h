@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "evolve/genetics/population.h"
 #include "evolve/search/scorer.h"
@@ -22,13 +24,19 @@ class NeatSearch : public Search {
   void load(std::span<const std::uint8_t> state, const RowsOf& rows) override;
 
  private:
+  std::vector<std::uint8_t> measured() const;
   std::vector<std::vector<Row>> rows_of(const std::vector<double>& scores) const;
+  std::vector<Row> origin_rows(const std::vector<double>& merits) const;
 
   NeatSettings settings_;
   Problem problem_;
   int threads_;
   std::unique_ptr<Scorer> scorer_;
   PopulationState population_;  ///< about to be evaluated
+  /// Geometric means of the measured objectives of the generation before, whose ids count from
+  /// first_parent_.
+  std::vector<double> parents_;
+  std::int64_t first_parent_ = 0;
 };
 
 }  // namespace metamorph::evolve

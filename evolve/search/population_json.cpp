@@ -10,17 +10,18 @@ using Json = nlohmann::json;
 // The bindings name every field: a new one does not compile before it is thought of here.
 
 Json to_json(const Individual& individual) {
-  const auto& [id, parent_a, parent_b, species] = individual;
-  return {id, parent_a, parent_b, species};
+  const auto& [id, parent_a, parent_b, species, origin] = individual;
+  return {id, parent_a, parent_b, species, static_cast<int>(origin)};
 }
 
 Individual individual_of(const Json& json) {
   Individual individual;
-  auto& [id, parent_a, parent_b, species] = individual;
+  auto& [id, parent_a, parent_b, species, origin] = individual;
   json.at(0).get_to(id);
   json.at(1).get_to(parent_a);
   json.at(2).get_to(parent_b);
   json.at(3).get_to(species);
+  origin = static_cast<Origin>(json.at(4).get<int>());
   return individual;
 }
 

@@ -1,7 +1,11 @@
 #include "metamorph/searches.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
+#include <stdexcept>
+#include <type_traits>
 
 namespace metamorph::evolve {
 
@@ -24,6 +28,11 @@ const SearchKind& search_kind(std::string_view name) {
 }
 
 std::unique_ptr<Search> make_search(const SearchSetup& setup) {
+  std::string lines;
+  for (const Contradiction& fault : faults(setup)) {
+    lines += fmt::format("{}{}: expected {}", lines.empty() ? "" : "\n", fault.key, fault.expected);
+  }
+  if (!lines.empty()) throw std::invalid_argument(lines);
   return search_kind(setup.settings.kind).make(setup);
 }
 
@@ -35,12 +44,27 @@ SearchSettings::SearchSettings() {
   }
 }
 
-int SearchSettings::integer(std::string_view name) const {
-  return std::get<int>(values.find(name)->second);
+SearchSettings paper_search_settings() {
+  SearchSettings settings;
+  for (const SearchKind& search : search_kinds()) {
+    for (const Setting& setting : search.settings) {
+      if (setting.paper) settings.values.find(setting.name)->second = *setting.paper;
+    }
+  }
+  return settings;
 }
 
-double SearchSettings::real(std::string_view name) const {
-  return std::get<double>(values.find(name)->second);
+NeatSettings paper_neat_settings() {
+  NeatSettings settings;
+  for (const NeatField& field : neat_fields) {
+    std::visit(
+        [&](auto member) {
+          auto& value = settings.*member;
+          value = static_cast<std::remove_reference_t<decltype(value)>>(field.paper);
+        },
+        field.member);
+  }
+  return settings;
 }
 
 }  // namespace metamorph::evolve

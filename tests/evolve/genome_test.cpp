@@ -168,10 +168,10 @@ TEST(Compile, SlotsFollowTheShape) {
   // Links from all inputs to the first output, weights telling them apart.
   Genome genome = hand_made({}, {{0, 0, 6, 10}, {1, 5, 6, 15}, {2, -1, 6, 9}});
   genome.nodes.insert(genome.nodes.begin(), {-1, NodeKind::input});
-  const ControlShape shape = {
-      {core::Input::neighbours, core::Input::bias, core::Input::x, core::Input::y,
-       core::Input::morphogen_1, core::Input::morphogen_2, core::Input::time},
-      core::paper_outputs()};
+  const ControlShape shape =
+      shape_of({core::Input::neighbours, core::Input::bias, core::Input::x, core::Input::y,
+                core::Input::morphogen_1, core::Input::morphogen_2, core::Input::time},
+               core::paper_outputs());
   EXPECT_THAT(compile(genome, shape).source, ElementsAre(6, 1, 0));
   EXPECT_THAT(compile(genome, testing::with_neighbours()).source, ElementsAre(0, 5, 6));
 }
@@ -194,12 +194,50 @@ TEST(Misfits, NamesWhatItHasAndWhatWasExpected) {
   EXPECT_THAT(misfits(genome, {}),
               ElementsAre("inputs: " + paper + ", neighbours: expected none but " + paper));
   ControlShape immortal;
-  std::erase(immortal.outputs, core::Output::die);
+  std::erase(immortal.outputs, node_id(core::Output::die));
   EXPECT_THAT(misfits(hand_made({}, {}), immortal),
               ElementsAre("outputs: inhibit, angle, die, morphogen_1, morphogen_2, period, phase: "
                           "expected none but inhibit, angle, morphogen_1, morphogen_2, period, "
                           "phase"));
   EXPECT_EQ(misfits(genome, immortal).size(), 2u);
+}
+
+TEST(FreeShape, IsAShapeOfItsOwnWithTheBiasLast) {
+  const ControlShape shape = free_shape(3, 2);
+  ASSERT_EQ(shape.inputs.size(), 4u);
+  EXPECT_EQ(shape.inputs.back(), bias_input);
+  ASSERT_EQ(shape.outputs.size(), 2u);
+  for (const int id : shape.inputs) EXPECT_EQ(kind_of(id), NodeKind::input);
+  for (const int id : shape.outputs) EXPECT_EQ(kind_of(id), NodeKind::output);
+  EXPECT_EQ(kind_of(free_shape(1, free_signals).outputs.back()), NodeKind::output);
+  EXPECT_EQ(free_shape(1, free_signals).outputs.back(), least_id);
+  EXPECT_EQ(kind_of(free_shape(free_signals, 1).inputs.front() - free_signals + 1),
+            NodeKind::input);
+  for (const int bad : {0, free_signals + 1}) {
+    EXPECT_THROW(free_shape(bad, 1), std::invalid_argument);
+    EXPECT_THROW(free_shape(1, bad), std::invalid_argument);
+  }
+}
+
+// Without hidden nodes every input leads to every output, so that the network is their weighted
+// sum.
+TEST(FreeShape, SeedsWithoutHiddenNodesAreOneLayer) {
+  NeatSettings settings;
+  settings.hidden_nodes = 0;
+  evolve::RandomStream stream = testing::test_stream(5);
+  const ControlShape shape = free_shape(2, 2);
+  const Genome genome = seed_genome(settings, stream, shape);
+  EXPECT_THAT(check(genome), IsEmpty());
+  EXPECT_THAT(misfits(genome, shape), IsEmpty());
+  EXPECT_EQ(genome.links.size(), 6u);
+  const core::Network network = compile(genome, shape);
+  EXPECT_EQ(network.inputs, 3);
+  EXPECT_EQ(network.node_count(), 2);
+  for (int node = 0; node < 2; ++node) {
+    std::vector<int> sources(network.source.begin() + 3 * node,
+                             network.source.begin() + 3 * node + 3);
+    EXPECT_THAT(sources, ::testing::UnorderedElementsAre(0, 1, 2));
+  }
 }
 
 TEST(CheckGenome, AcceptsSoundGenomes) {

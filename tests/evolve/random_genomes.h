@@ -55,7 +55,7 @@ inline std::vector<Genome> wander(const NeatSettings& settings, int count, int r
 /// The paper's signals and the neighbours.
 inline ControlShape with_neighbours() {
   ControlShape shape;
-  shape.inputs.push_back(core::Input::neighbours);
+  shape.inputs.push_back(node_id(core::Input::neighbours));
   return shape;
 }
 

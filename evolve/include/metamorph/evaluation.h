@@ -20,12 +20,21 @@ struct Objective {
   int stage = 0;  ///< age at which it is measured: a progressive search lets stage after stage in
 };
 
+/// One descriptor of a problem.
+struct Descriptor {
+  std::string name;
+  int objective = 0;        ///< it is told of the trial behind this objective
+  double low = 0;           ///< between them it is expected: the ends of a map's axis
+  double high = 1;          ///< > low
+  bool is_position = true;  ///< where an individual ended: what novelty compares
+};
+
 /// What the numbers of an evaluation mean, and how long the search may take.
 struct Problem {
   std::vector<Objective> objectives;
-  std::vector<std::string> descriptors;  ///< names
-  int generations = 1;                   ///< to be done
-  std::uint64_t seed = 1;                ///< of every random number of the search
+  std::vector<Descriptor> descriptors;
+  int generations = 1;     ///< to be done
+  std::uint64_t seed = 1;  ///< of every random number of the search
 };
 
 /// The non-negative n-th root of x >= 0, n > 0; the same bits on every machine.

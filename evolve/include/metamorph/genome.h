@@ -52,7 +52,8 @@ std::vector<std::string> misfits(const Genome& genome, const ControlShape& shape
 /// ordered by depth (the most links on a path that ends there), ties by id; the links of a node are
 /// summed in order of innovation. Hidden nodes from which no output can be reached are left out:
 /// they change nothing. A hidden node without incoming links is 0, and so is an output that the
-/// genome lacks; an input that it lacks is read by nobody.
+/// genome lacks; an input that it lacks is read by nobody. Throws std::invalid_argument for a
+/// cycle, a link without an end, or a genome that does not fit.
 core::Network compile(const Genome& genome, const ControlShape& shape = {});
 
 }  // namespace metamorph::evolve

@@ -1,14 +1,19 @@
 #pragma once
 
+#include <array>
+#include <string_view>
+#include <variant>
+
 namespace metamorph::evolve {
 
-/// Settings of NEAT (MODEL section 5). Every number is a configuration entry.
+/// Settings of NEAT (MODEL section 5). Initially what evolved best here (bench/SEARCH.md).
 struct NeatSettings {
   int population = 300;
-  int hidden_nodes = 8;         ///< of the seed genome
-  double initial_weight = 2.0;  ///< weights start triangular on [-this, this]
-  int species_min = 5;          ///< below: the threshold falls
-  int species_max = 30;         ///< above: the threshold rises
+  int hidden_nodes = 8;
+  double initial_weight = 2.0;
+  int species_min = 15;
+  int species_max = 15;
+  int species_members = 5;
   double compatibility_threshold = 5.0;
   double compatibility_step = 0.2;
   double compatibility_floor = 0.2;
@@ -24,15 +29,89 @@ struct NeatSettings {
   double mutation_after_crossover = 0.25;
   double interspecies_crossover = 0.0001;
   double multipoint = 0.75;
-  double mutate_weights = 0.75;  ///< the four rates of the mutation roulette
+  double mutate_weights = 0.75;
   double add_link = 0.07;
   double add_node = 0.01;
   double remove_link = 0.01;
-  double severe = 0.25;
+  double severe = 0.05;
+  double redrawn_share = 1;
   double weight_change = 1.0;
+  double moved_share = 0;
   double weight_limit = 8.0;
+  double node_weight = 2;
   double fitness_floor = 1e-4;
-  int clone_tries = 10;  ///< times a child identical to an earlier one is bred again, at most
+  int clone_tries = 10;
 };
+
+/// One number of NEAT.
+struct NeatField {
+  std::string_view name;  ///< of the member, and of the key that sets it in experiments
+  std::variant<int NeatSettings::*, double NeatSettings::*> member;
+  double paper;      ///< what the paper's search has
+  double low, high;  ///< both ends included
+  std::string_view meaning;
+};
+
+/// The one list of them: keys of experiments, their check, and the paper's values.
+inline constexpr std::array neat_fields = [] {
+  using N = NeatSettings;
+  constexpr double no_limit = 1e9;  // upper end of ranges that have no natural one
+  return std::array{
+      NeatField{"population", &N::population, 300, 1, 1e6, "individuals per generation"},
+      NeatField{"hidden_nodes", &N::hidden_nodes, 8, 0, 1e4, "hidden nodes of the first genomes"},
+      NeatField{"initial_weight", &N::initial_weight, 2, 0, 1e6,
+                "first weights are triangular up to this"},
+      NeatField{"species_min", &N::species_min, 5, 1, 1e6, "fewer species: the threshold falls"},
+      NeatField{"species_max", &N::species_max, 30, 1, 1e6,
+                "more species: the threshold rises; both the same: it steers to that number"},
+      NeatField{"species_members", &N::species_members, 0, 0, 1e6,
+                "bounds both by population / this; 0: no bound"},
+      NeatField{"compatibility_threshold", &N::compatibility_threshold, 5, 0, 1e6,
+                "of species, at first"},
+      NeatField{"compatibility_step", &N::compatibility_step, 0.2, 0, 1e6,
+                "its change per generation"},
+      NeatField{"compatibility_floor", &N::compatibility_floor, 0.2, 0, 1e6, "its lowest value"},
+      NeatField{"weight_difference_factor", &N::weight_difference_factor, 1.5, 0, 1e6,
+                "weight of the mean weight difference in the distance"},
+      NeatField{"young_age", &N::young_age, 5, 0, no_limit, "species below this age get the bonus"},
+      NeatField{"young_bonus", &N::young_bonus, 1.1, 0, 1e6,
+                "factor on the fitness of young species"},
+      NeatField{"old_age", &N::old_age, 30, 0, no_limit,
+                "species above this age get the old factor"},
+      NeatField{"old_factor", &N::old_factor, 1, 0, 1e6, "factor on the fitness of old species"},
+      NeatField{"stagnation", &N::stagnation, 50, 1, no_limit, "generations without a new best"},
+      NeatField{"stagnation_factor", &N::stagnation_factor, 1e-7, 0, 1,
+                "factor on the fitness after those"},
+      NeatField{"survival_share", &N::survival_share, 0.25, 0, 1,
+                "share of a species that may be parents"},
+      NeatField{"crossover", &N::crossover, 0.75, 0, 1, "probability of two parents"},
+      NeatField{"mutation_after_crossover", &N::mutation_after_crossover, 0.25, 0, 1,
+                "probability"},
+      NeatField{"interspecies_crossover", &N::interspecies_crossover, 0.0001, 0, 1, "probability"},
+      NeatField{"multipoint", &N::multipoint, 0.75, 0, 1,
+                "probability of multipoint, else averaging"},
+      NeatField{"mutate_weights", &N::mutate_weights, 0.75, 0, 1e6,
+                "rate in the mutation roulette"},
+      NeatField{"add_link", &N::add_link, 0.07, 0, 1e6, "rate in the mutation roulette"},
+      NeatField{"add_node", &N::add_node, 0.01, 0, 1e6, "rate in the mutation roulette"},
+      NeatField{"remove_link", &N::remove_link, 0.01, 0, 1e6, "rate in the mutation roulette"},
+      NeatField{"severe", &N::severe, 0.25, 0, 1,
+                "share of weight mutations that redraw weights instead of moving them"},
+      NeatField{"redrawn_share", &N::redrawn_share, 1, 0, 1,
+                "least share of the links that these redraw; see moved_share"},
+      NeatField{"weight_change", &N::weight_change, 1, 0, 1e6, "largest change of a weight"},
+      NeatField{"moved_share", &N::moved_share, 1, 0, 1,
+                "least share of the links that a weight mutation moves: each time a share is drawn "
+                "log-uniformly between it and 1; 0: from one link on"},
+      NeatField{"weight_limit", &N::weight_limit, 8, 1e-6, 1000, "largest absolute weight"},
+      NeatField{"node_weight", &N::node_weight, 1, 0, 1e6,
+                "weight of the link into an added node; 2 keeps small signals as they were"},
+      NeatField{"fitness_floor", &N::fitness_floor, 1e-4, 0, 1e6, "least fitness before sharing"},
+      NeatField{"clone_tries", &N::clone_tries, 10, 0, 1e6,
+                "times a child identical to an earlier one is bred again, at most"}};
+}();
+
+/// NEAT as the paper has it.
+NeatSettings paper_neat_settings();
 
 }  // namespace metamorph::evolve

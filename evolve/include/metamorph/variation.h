@@ -13,7 +13,8 @@
 namespace metamorph::evolve {
 
 /// Topology of generation 0: every input to every hidden node, every hidden node to every output,
-/// the bias to every output; nothing else. Inputs and outputs are those of the shape. Weights
+/// the bias to every output; nothing else. Without hidden nodes every input leads to every output.
+/// Inputs and outputs are those of the shape, the bias among them. Weights
 /// triangular on +-settings.initial_weight. All seed genomes of a run share their innovation
 /// numbers, 0 to links - 1.
 Genome seed_genome(const NeatSettings& settings, RandomStream& stream,
@@ -27,7 +28,7 @@ double new_weight(const NeatSettings& settings, RandomStream& stream);
 /// mean if `averaging`. The structure is the fitter's, so a crossover cannot close a cycle.
 Genome cross(const Genome& fitter, const Genome& other, bool averaging, RandomStream& stream);
 
-enum class MutationKind { none, weights, add_link, add_node, remove_link };
+enum class MutationKind { none, weights, redraw, add_link, add_node, remove_link };
 
 /// A structural change that needs innovation numbers. Children are bred in parallel without them;
 /// the numbers are given afterwards, in order of the children (Innovations).
@@ -43,8 +44,11 @@ struct StructuralChange {
 /// place; an added link or node is left in `change`. Returns the kind, or none where no kind with
 /// a rate above 0 is possible.
 ///
-/// - weights: with probability settings.severe all are drawn anew as in the seed genome, else each
-///   moves by settings.weight_change * triangular; within +-settings.weight_limit.
+/// - weights: each link changes with a chance that is drawn log-uniformly from a least share
+///   (settings.moved_share; 0: 1 / links) to 1; if none did, one does. It moves by
+///   settings.weight_change * triangular, within +-settings.weight_limit. With probability
+///   settings.severe the mutation is a redraw: the links are drawn anew as in the seed genome, of
+///   least share settings.redrawn_share.
 /// - add link: a uniformly drawn pair among all that are not linked and would close no cycle.
 /// - add node: splits a uniformly drawn link that does not come from the bias.
 /// - remove link: any but the last one; hidden nodes left without any link go with it.
@@ -59,8 +63,9 @@ class Innovations {
   /// Borrows the two counters of the population; they are advanced in place.
   Innovations(int& next_innovation, int& next_node);
 
-  /// Carries out a change left by mutate(). An added node gets incoming weight 1 and the split
-  /// link's weight outgoing; the split link goes.
+  /// Carries out a change left by mutate(). An added node gets incoming weight
+  /// settings.node_weight and the split link's weight outgoing; the split link goes. (A node is
+  /// tanh(s/2) of its sum s: weight 2 passes small signals on as they are, 1 halves them.)
   void apply(const StructuralChange& change, const NeatSettings& settings, Genome& genome);
 
  private:
