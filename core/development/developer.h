@@ -26,7 +26,13 @@ inline double angle_of(double x, double y) {
   return angle > -std::numbers::pi ? angle : std::numbers::pi;
 }
 
-/// Develops one network after the other, in arrays that it keeps. T is the precision of the cells'
+/// The networks that control one embryo: from step switches[k] on it is networks[k + 1].
+struct Controls {
+  std::span<const Network> networks;  ///< [switches + 1]
+  std::span<const int> switches;      ///< ascending
+};
+
+/// Develops one embryo after the other, in arrays that it keeps. T is the precision of the cells'
 /// state and of the network; triangulations are exact in either.
 template <class T>
 class Developer {
@@ -44,10 +50,12 @@ class Developer {
         willing_(colony_.cell.size()) {}
 
   /// check: what is to see every renewal, or nullptr.
-  std::vector<Embryo> operator()(const Network& network, std::span<const int> stages,
+  std::vector<Embryo> operator()(const Controls& controls, std::span<const int> stages,
                                  LinkCheck* check = nullptr) {
     check_ = check;
-    control_.set_network(network);
+    controls_ = controls;
+    current_ = 0;
+    control_.set_network(controls_.networks.front());
     colony_.reset();
     neighbourhood_.clear();
     previous_.clear();
@@ -93,8 +101,18 @@ class Developer {
     }
   }
 
+  /// Sets the network of the stage of life that goes on at this step.
+  void choose_network(int step) {
+    const std::size_t before = current_;
+    while (current_ < controls_.switches.size() && controls_.switches[current_] <= step) {
+      ++current_;
+    }
+    if (current_ != before) control_.set_network(controls_.networks[current_]);
+  }
+
   /// One update of the control network. True if cells were born or died.
   bool update(int step) {
+    choose_network(step);
     control_.evaluate(step, colony_, neighbourhood_);
     for (int i = 0; i < colony_.count; ++i) {
       turned_heading(colony_, neighbourhood_, i, control_(Output::angle, i), next_x_[at(i)],
@@ -161,6 +179,7 @@ class Developer {
     if (!renewal_due) stage_neighbourhood_ = neighbourhood_;
     Neighbourhood& neighbourhood = renewal_due ? neighbourhood_ : stage_neighbourhood_;
     renew(step, neighbourhood);
+    choose_network(step - 1);  // of the life that ends here, if one does
     control_.evaluate(step, colony_, neighbourhood);
     Embryo embryo;
     embryo.step = step;
@@ -211,6 +230,8 @@ class Developer {
   Control<T> control_;
   Neighbourhood neighbourhood_, stage_neighbourhood_;
   LinkCheck* check_ = nullptr;
+  Controls controls_;        // borrowed during a call
+  std::size_t current_ = 0;  // of its networks
   Status status_ = Status::ok;
   std::vector<T> next_x_, next_y_;  // headings after the update, if willing
   std::vector<char> willing_;       // not inhibited

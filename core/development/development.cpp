@@ -13,22 +13,65 @@
 namespace metamorph::core {
 namespace {
 
-/// Calls develop(developer, n) for every network n, each thread with a developer of its own.
-template <class Develop>
-void for_each_network(std::span<const Network> networks, const DevelopmentRules& rules,
-                      [[maybe_unused]] std::span<const int> stages, int threads,
-                      const Develop& develop) {
+/// Networks of embryos that have one each.
+struct SingleNetworks {
+  std::span<const Network> networks;
+  std::size_t size() const { return networks.size(); }
+  Controls operator[](std::size_t n) const { return {{&networks[n], 1}, {}}; }
+};
+
+/// Networks of embryos that may have one after the other.
+struct Lives {
+  std::span<const std::vector<Network>> networks;
+  std::span<const int> switches;
+  std::size_t size() const { return networks.size(); }
+  Controls operator[](std::size_t n) const {
+    return {networks[n], networks[n].size() > 1 ? switches : std::span<const int>()};
+  }
+};
+
+[[maybe_unused]] bool fits(const Controls& controls, const DevelopmentRules& rules) {
+  return controls.networks.size() == controls.switches.size() + 1 &&
+         std::is_sorted(controls.switches.begin(), controls.switches.end()) &&
+         std::all_of(controls.networks.begin(), controls.networks.end(),
+                     [&](const Network& network) { return check(network, rules).empty(); });
+}
+
+/// Calls develop(developer, n) for every embryo n, each thread with a developer of its own.
+template <class All, class Develop>
+void for_each_embryo([[maybe_unused]] const All& all, const DevelopmentRules& rules,
+                     [[maybe_unused]] std::span<const int> stages, int threads,
+                     const Develop& develop) {
   assert(std::is_sorted(stages.begin(), stages.end()));
-  assert(std::all_of(networks.begin(), networks.end(),
-                     [&](const Network& network) { return check(network, rules).empty(); }));
   assert(stages.empty() || (stages.front() >= 0 && stages.back() <= rules.steps));
-  const auto count = static_cast<std::ptrdiff_t>(networks.size());
+  const auto count = static_cast<std::ptrdiff_t>(all.size());
 #pragma omp parallel num_threads(thread_count(threads))
   {
     Developer<float> developer(rules);
 #pragma omp for schedule(dynamic)
-    for (std::ptrdiff_t i = 0; i < count; ++i) develop(developer, static_cast<std::size_t>(i));
+    for (std::ptrdiff_t i = 0; i < count; ++i) {
+      assert(fits(all[static_cast<std::size_t>(i)], rules));
+      develop(developer, static_cast<std::size_t>(i));
+    }
   }
+}
+
+template <class All>
+std::vector<std::vector<Embryo>> develop_all(const All& all, const DevelopmentRules& rules,
+                                             std::span<const int> stages, int threads) {
+  std::vector<std::vector<Embryo>> result(all.size());
+  for_each_embryo(all, rules, stages, threads,
+                  [&](auto& developer, std::size_t n) { result[n] = developer(all[n], stages); });
+  return result;
+}
+
+template <class All>
+std::vector<LinkCheck> check_all(const All& all, const DevelopmentRules& rules,
+                                 std::span<const int> stages, int threads) {
+  std::vector<LinkCheck> checks(all.size());
+  for_each_embryo(all, rules, stages, threads,
+                  [&](auto& developer, std::size_t n) { developer(all[n], stages, &checks[n]); });
+  return checks;
 }
 
 }  // namespace
@@ -36,20 +79,25 @@ void for_each_network(std::span<const Network> networks, const DevelopmentRules&
 std::vector<std::vector<Embryo>> develop(std::span<const Network> networks,
                                          const DevelopmentRules& rules, std::span<const int> stages,
                                          int threads) {
-  std::vector<std::vector<Embryo>> result(networks.size());
-  for_each_network(networks, rules, stages, threads, [&](auto& developer, std::size_t n) {
-    result[n] = developer(networks[n], stages);
-  });
-  return result;
+  return develop_all(SingleNetworks{networks}, rules, stages, threads);
+}
+
+std::vector<std::vector<Embryo>> develop(std::span<const std::vector<Network>> lives,
+                                         std::span<const int> switches,
+                                         const DevelopmentRules& rules, std::span<const int> stages,
+                                         int threads) {
+  return develop_all(Lives{lives, switches}, rules, stages, threads);
 }
 
 std::vector<LinkCheck> check_links(std::span<const Network> networks, const DevelopmentRules& rules,
                                    std::span<const int> stages, int threads) {
-  std::vector<LinkCheck> checks(networks.size());
-  for_each_network(networks, rules, stages, threads, [&](auto& developer, std::size_t n) {
-    developer(networks[n], stages, &checks[n]);
-  });
-  return checks;
+  return check_all(SingleNetworks{networks}, rules, stages, threads);
+}
+
+std::vector<LinkCheck> check_links(std::span<const std::vector<Network>> lives,
+                                   std::span<const int> switches, const DevelopmentRules& rules,
+                                   std::span<const int> stages, int threads) {
+  return check_all(Lives{lives, switches}, rules, stages, threads);
 }
 
 }  // namespace metamorph::core

@@ -33,6 +33,9 @@ struct LinkCheck {
 /// neighbours. One check for each network; the same for any thread count (0: all threads).
 std::vector<LinkCheck> check_links(std::span<const Network> networks, const DevelopmentRules& rules,
                                    std::span<const int> stages, int threads);
+std::vector<LinkCheck> check_links(std::span<const std::vector<Network>> lives,
+                                   std::span<const int> switches, const DevelopmentRules& rules,
+                                   std::span<const int> stages, int threads);
 
 /// The difference in one line; empty if there is none.
 std::string difference_text(const LinkCheck& check);

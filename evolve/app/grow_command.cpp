@@ -46,11 +46,10 @@ struct Grown {
   fs::path body_file;  ///< written where there is a body
 };
 
-std::vector<Grown> grow(const core::Network& network, const Experiment& experiment,
+std::vector<Grown> grow(const Genome& genome, const Experiment& experiment,
                         const std::vector<int>& steps, const fs::path& out) {
-  auto embryos = core::develop({&network, 1}, experiment.development, steps, 1);
   std::vector<Grown> result;
-  for (core::Embryo& embryo : embryos.front()) {
+  for (core::Embryo& embryo : embryos_of(experiment, genome, steps)) {
     Grown grown;
     grown.extraction = core::extract_body(embryo, experiment.min_cells);
     grown.embryo_file = out / fmt::format("embryo-{:04}.json", embryo.step);
@@ -106,14 +105,17 @@ void grow_command(const GrowOptions& options) {
   const Genome genome = read_genome(options.genome, experiment.development);
   const fs::path out =
       options.out.empty() ? fs::path(options.genome).stem() : fs::path(options.out);
-  const core::Network network = compile(genome, shape_of(experiment.development));
   const std::vector<int> steps =
       steps_at(experiment, options.at.empty() ? experiment.stages() : options.at);
   core::LinkCheck check;
-  if (options.check_links)
-    check = core::check_links({&network, 1}, experiment.development, steps, 1).front();
+  if (options.check_links) {
+    const std::vector<core::Network> life = networks_of(experiment, genome);
+    check =
+        core::check_links({&life, 1}, experiment.metamorphoses(), experiment.development, steps, 1)
+            .front();
+  }
   if (!check.ok()) throw std::runtime_error(options.genome + ": " + difference_text(check));
-  const std::vector<Grown> all = grow(network, experiment, steps, out);
+  const std::vector<Grown> all = grow(genome, experiment, steps, out);
   const fs::path picture = out / ("development." + options.picture);
   const bool with_picture = options.picture != "none";
 

@@ -64,14 +64,12 @@ Subject subject_of_genome(const RenderOptions& options) {
 
 std::vector<core::Outcome> outcomes_of(const Subject& subject) {
   return Evaluator(rules_of(subject.experiment), 1)
-      .evaluate_fully(compile(subject.genome, shape_of(subject.experiment.development)),
-                      subject.generation)
+      .evaluate_fully(networks_of(subject.experiment, subject.genome), subject.generation)
       .trials;
 }
 
 std::vector<core::Embryo> embryos_of(const Subject& subject, const std::vector<int>& steps) {
-  const core::Network network = compile(subject.genome, shape_of(subject.experiment.development));
-  return core::develop({&network, 1}, subject.experiment.development, steps, 1).front();
+  return embryos_of(subject.experiment, subject.genome, steps);
 }
 
 /// Six steps, evenly spread to the end.

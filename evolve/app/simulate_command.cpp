@@ -53,6 +53,7 @@ core::Scene scene_to_run(const Experiment& experiment, const SimulateOptions& op
 std::vector<Animat> animats_of(const Experiment& experiment, const SimulateOptions& options) {
   BodyChoice choice;
   choice.rules = experiment.development;
+  choice.switches = experiment.metamorphoses();
   choice.min_cells = experiment.min_cells;
   const Trial* trial = trial_of(experiment, options.rules);
   choice.stage = trial == nullptr ? choice.rules.steps : trial->stage;

@@ -2,8 +2,15 @@
 
 #include <cassert>
 #include <cmath>
+#include <set>
 
 namespace metamorph::evolve {
+
+int stage_count(const Problem& problem) {
+  std::set<int> stages;
+  for (const Objective& objective : problem.objectives) stages.insert(objective.stage);
+  return static_cast<int>(stages.size());
+}
 
 double root(double x, int n) {
   assert(x >= 0 && n > 0);

@@ -23,6 +23,9 @@ std::ptrdiff_t signed_size(const auto& list) { return static_cast<std::ptrdiff_t
 // 100 MB of bodies.
 constexpr std::size_t most_at_once = 4096;
 
+/// Of each individual one network, or one for each stage of life.
+using Lives = std::span<const std::vector<core::Network>>;
+
 /// The distinct stages of the trials that run, ascending.
 std::vector<int> stages_of(const EvaluationRules& rules,
                            const std::vector<std::uint8_t>& run_trial) {
@@ -32,6 +35,13 @@ std::vector<int> stages_of(const EvaluationRules& rules,
   }
   std::sort(stages.begin(), stages.end());
   stages.erase(std::unique(stages.begin(), stages.end()), stages.end());
+  return stages;
+}
+
+/// The steps at which the next stage of life begins.
+std::vector<int> switches_of(const EvaluationRules& rules) {
+  std::vector<int> stages = stages_of(rules, std::vector<std::uint8_t>(rules.trials.size(), 1));
+  if (!stages.empty()) stages.pop_back();
   return stages;
 }
 
@@ -97,27 +107,28 @@ class Evaluator::Implementation {
       : rules_(std::move(rules)),
         threads_(core::thread_count(threads)),
         checked_(checked),
+        switches_(switches_of(rules_)),
         renews_(std::any_of(rules_.trials.begin(), rules_.trials.end(),
                             [](const Trial& trial) { return trial.starts_renew; })) {}
 
-  std::vector<Evaluated> evaluate(std::span<const core::Network> networks,
-                                  const std::vector<std::uint8_t>& run_trial, int generation);
-  Evaluated evaluate_fully(const core::Network& network, int generation);
+  std::vector<Evaluated> evaluate(Lives lives, const std::vector<std::uint8_t>& run_trial,
+                                  int generation);
+  Evaluated evaluate_fully(const std::vector<core::Network>& life, int generation);
 
   EvaluationRules rules_;
   EvaluationWork work_;
   EvaluationSeconds seconds_;
 
  private:
-  std::vector<Known> grow(std::span<const core::Network> networks,
-                          const std::vector<std::uint8_t>& run_trial);
-  void check_links(std::span<const core::Network> networks, const std::vector<int>& stages);
+  std::vector<Known> grow(Lives lives, const std::vector<std::uint8_t>& run_trial);
+  void check_links(Lives lives, const std::vector<int>& stages);
   Outcomes run_bodies(std::span<Known* const> all, int generation);
   std::vector<Task> tasks_of(const core::Body& body, const Trial& trial, int generation) const;
   void simulate(std::span<const Run> runs, int generation, Outcomes& outcomes) const;
 
   int threads_;
   CheckedLinks* checked_;
+  std::vector<int> switches_;
   bool renews_;  ///< a trial renews its starts
   // Of the last call, and the trials it ran.
   std::unordered_map<Fingerprint, Known, FingerprintHash> known_;
@@ -126,24 +137,23 @@ class Evaluator::Implementation {
 };
 
 std::vector<Evaluated> Evaluator::Implementation::evaluate(
-    std::span<const core::Network> networks, const std::vector<std::uint8_t>& run_trial,
-    int generation) {
+    Lives lives, const std::vector<std::uint8_t>& run_trial, int generation) {
   assert(run_trial.size() == rules_.trials.size());
   if (run_trial != known_trials_) known_.clear();
   work_ = {};
 
   Stopwatch watch;
-  std::vector<Fingerprint> prints(networks.size());
+  std::vector<Fingerprint> prints(lives.size());
 #pragma omp parallel for schedule(dynamic) num_threads(threads_)
-  for (std::ptrdiff_t i = 0; i < signed_size(networks); ++i) {
+  for (std::ptrdiff_t i = 0; i < signed_size(lives); ++i) {
     const auto n = static_cast<std::size_t>(i);
-    prints[n] = fingerprint(networks[n]);
+    prints[n] = fingerprint(lives[n]);
   }
-  std::vector<core::Network> fresh;
+  std::vector<std::vector<core::Network>> fresh;
   std::unordered_map<Fingerprint, std::size_t, FingerprintHash> fresh_position;
-  for (std::size_t i = 0; i < networks.size(); ++i) {
+  for (std::size_t i = 0; i < lives.size(); ++i) {
     if (known_.contains(prints[i])) continue;
-    if (fresh_position.emplace(prints[i], fresh.size()).second) fresh.push_back(networks[i]);
+    if (fresh_position.emplace(prints[i], fresh.size()).second) fresh.push_back(lives[i]);
   }
   seconds_.develop += watch.lap();
 
@@ -165,26 +175,25 @@ std::vector<Evaluated> Evaluator::Implementation::evaluate(
     results.push_back(known.result);
     for (const auto& starts : known.tasks) work_.bodies += signed_size(starts);
   }
-  work_.individuals = signed_size(networks);
+  work_.individuals = signed_size(lives);
   known_ = std::move(current);
   known_trials_ = run_trial;
   return results;
 }
 
-Evaluated Evaluator::Implementation::evaluate_fully(const core::Network& network, int generation) {
+Evaluated Evaluator::Implementation::evaluate_fully(const std::vector<core::Network>& life,
+                                                    int generation) {
   const EvaluationWork work = work_;  // this one is nobody's generation
-  std::vector<Known> grown =
-      grow({&network, 1}, std::vector<std::uint8_t>(rules_.trials.size(), 1));
+  std::vector<Known> grown = grow({&life, 1}, std::vector<std::uint8_t>(rules_.trials.size(), 1));
   Known* const all[] = {&grown.front()};
   run_bodies(all, generation);
   work_ = work;
   return std::move(grown.front().result);
 }
 
-void Evaluator::Implementation::check_links(std::span<const core::Network> networks,
-                                            const std::vector<int>& stages) {
+void Evaluator::Implementation::check_links(Lives lives, const std::vector<int>& stages) {
   const std::vector<core::LinkCheck> checks =
-      core::check_links(networks, rules_.development, stages, threads_);
+      core::check_links(lives, switches_, rules_.development, stages, threads_);
   for (std::size_t i = 0; i < checks.size(); ++i) {
     if (!checks[i].ok()) {
       throw std::runtime_error("network " + std::to_string(i) +
@@ -196,17 +205,17 @@ void Evaluator::Implementation::check_links(std::span<const core::Network> netwo
   }
 }
 
-/// Develops networks that are all different. No outcome yet.
-std::vector<Known> Evaluator::Implementation::grow(std::span<const core::Network> networks,
+/// Develops individuals that are all different. No outcome yet.
+std::vector<Known> Evaluator::Implementation::grow(Lives lives,
                                                    const std::vector<std::uint8_t>& run_trial) {
-  const std::size_t count = networks.size(), trials = rules_.trials.size();
+  const std::size_t count = lives.size(), trials = rules_.trials.size();
   const std::vector<int> stages = stages_of(rules_, run_trial);
   const std::size_t stage_count = stages.size();
 
   Stopwatch watch;
   const std::vector<std::vector<core::Embryo>> embryos =
-      core::develop(networks, rules_.development, stages, threads_);
-  if (checked_ != nullptr) check_links(networks, stages);
+      core::develop(lives, switches_, rules_.development, stages, threads_);
+  if (checked_ != nullptr) check_links(lives, stages);
   work_.developed += static_cast<std::int64_t>(count);
   seconds_.develop += watch.lap();
 
@@ -341,11 +350,22 @@ Evaluator::~Evaluator() = default;
 std::vector<Evaluated> Evaluator::evaluate(std::span<const core::Network> networks,
                                            const std::vector<std::uint8_t>& run_trial,
                                            int generation) {
-  return implementation_->evaluate(networks, run_trial, generation);
+  std::vector<std::vector<core::Network>> lives;
+  for (const core::Network& network : networks) lives.push_back({network});
+  return implementation_->evaluate(lives, run_trial, generation);
+}
+
+std::vector<Evaluated> Evaluator::evaluate(Lives lives, const std::vector<std::uint8_t>& run_trial,
+                                           int generation) {
+  return implementation_->evaluate(lives, run_trial, generation);
 }
 
 Evaluated Evaluator::evaluate_fully(const core::Network& network, int generation) {
-  return implementation_->evaluate_fully(network, generation);
+  return implementation_->evaluate_fully({network}, generation);
+}
+
+Evaluated Evaluator::evaluate_fully(const std::vector<core::Network>& life, int generation) {
+  return implementation_->evaluate_fully(life, generation);
 }
 
 const EvaluationRules& Evaluator::rules() const { return implementation_->rules_; }

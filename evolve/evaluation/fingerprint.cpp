@@ -43,24 +43,27 @@ class Absorber {
 };
 
 template <class... Lists>
-Fingerprint of(const Lists&... lists) {
-  Absorber absorber;
+void absorb_all(Absorber& absorber, const Lists&... lists) {
   (absorber(lists), ...);
-  return absorber.result();
 }
 
 }  // namespace
 
 // The bindings name every field: a new one does not compile before it is thought of here.
 
-Fingerprint fingerprint(const core::Network& network) {
-  const auto& [inputs, first_link, source, weight, output] = network;
-  return of(std::array{inputs}, first_link, source, weight, output);
+Fingerprint fingerprint(std::span<const core::Network> life) {
+  Absorber absorber;
+  for (const auto& [inputs, first_link, source, weight, output] : life) {
+    absorb_all(absorber, std::array{inputs}, first_link, source, weight, output);
+  }
+  return absorber.result();
 }
 
 Fingerprint fingerprint(const core::Body& body) {
   const auto& [x, y, period, phase, triangles, springs, rest_length, rest_area, cell] = body;
-  return of(x, y, period, phase, triangles, springs, rest_length, rest_area);
+  Absorber absorber;
+  absorb_all(absorber, x, y, period, phase, triangles, springs, rest_length, rest_area);
+  return absorber.result();
 }
 
 }  // namespace metamorph::evolve

@@ -27,8 +27,8 @@ struct FingerprintHash {
   }
 };
 
-/// Of all that development depends on.
-Fingerprint fingerprint(const core::Network& network);
+/// Of all that development depends on: the networks that control it, one after the other.
+Fingerprint fingerprint(std::span<const core::Network> life);
 /// Of all that motion depends on: nodes, mesh, rest values and oscillators (not `cell`).
 Fingerprint fingerprint(const core::Body& body);
 

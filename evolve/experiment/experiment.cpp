@@ -34,6 +34,16 @@ void apply(Preset preset, Experiment& e) {
   e.search.values = paper ? paper_search_settings().values : SearchSettings{}.values;
 }
 
+std::vector<core::Network> networks_of(const Experiment& e, const Genome& genome) {
+  return compile_stages(genome, shape_of(e.development), static_cast<int>(e.stages().size()));
+}
+
+std::vector<core::Embryo> embryos_of(const Experiment& e, const Genome& genome,
+                                     std::span<const int> steps) {
+  const std::vector<core::Network> life = networks_of(e, genome);
+  return core::develop({&life, 1}, e.metamorphoses(), e.development, steps, 1).front();
+}
+
 EvaluationRules rules_of(const Experiment& e) {
   EvaluationRules rules{e.development,
                         e.min_cells,

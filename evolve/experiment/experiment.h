@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,13 @@ struct Experiment {
 
 /// Sets the preset and every setting of the search as it has them.
 void apply(Preset preset, Experiment& experiment);
+
+/// The networks of a genome in the stages of life that the experiment has; a single one if they are
+/// the same in all.
+std::vector<core::Network> networks_of(const Experiment& experiment, const Genome& genome);
+/// The genome's embryos at these steps (ascending), as the experiment develops them.
+std::vector<core::Embryo> embryos_of(const Experiment& experiment, const Genome& genome,
+                                     std::span<const int> steps);
 
 /// The part that an evaluator has to know.
 EvaluationRules rules_of(const Experiment& experiment);

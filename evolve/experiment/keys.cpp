@@ -149,7 +149,16 @@ Section neat_section(Experiment& e) {
   Section section{"neat", "how genomes are bred", {}};
   for (const NeatField& field : neat_fields) {
     Key key{field.name, static_cast<int*>(nullptr), field.low, field.high, field.meaning};
-    std::visit([&](auto member) { key.field = &(e.neat.*member); }, field.member);
+    std::visit(
+        [&](auto member) {
+          auto& value = e.neat.*member;
+          if constexpr (std::is_same_v<decltype(value), Separation&>) {
+            key.field = choice(value, separation_names);
+          } else {
+            key.field = &value;
+          }
+        },
+        field.member);
     section.keys.push_back(std::move(key));
   }
   return section;

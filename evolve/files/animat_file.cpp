@@ -22,10 +22,11 @@ std::string format_of(std::string_view text, const std::string& source) {
 }
 
 void grow(std::vector<Animat>& animats, const std::vector<std::size_t>& places,
-          const std::vector<core::Network>& networks, const BodyChoice& choice, int threads) {
-  if (networks.empty()) return;
+          const std::vector<std::vector<core::Network>>& lives, const BodyChoice& choice,
+          int threads) {
+  if (lives.empty()) return;
   const std::array<int, 1> stages = {choice.stage};
-  const auto embryos = core::develop(networks, choice.rules, stages, threads);
+  const auto embryos = core::develop(lives, choice.switches, choice.rules, stages, threads);
   for (std::size_t i = 0; i < places.size(); ++i) {
     core::Extraction extraction = core::extract_body(embryos[i].front(), choice.min_cells);
     animats[places[i]].status = extraction.status;
@@ -54,10 +55,10 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& directo
 
 /// Bodies as they are read, genomes as networks with their places among the animats.
 struct Reading {
-  const core::DevelopmentRules& rules;
+  const BodyChoice& choice;
   std::vector<Animat> animats;
   std::vector<std::size_t> places;
-  std::vector<core::Network> networks;
+  std::vector<std::vector<core::Network>> lives;
   Faults faults;
 
   void read(const std::filesystem::path& file, bool skip_embryo) {
@@ -69,8 +70,9 @@ struct Reading {
         animats.push_back({name, core::Status::ok, parse_body(text, name)});
       } else if (format == genome_format) {
         const Genome genome = parse_genome(text, name);
-        check_fits(genome, rules, name);
-        networks.push_back(compile(genome, shape_of(rules)));
+        check_fits(genome, choice.rules, name);
+        lives.push_back(compile_stages(genome, shape_of(choice.rules),
+                                       static_cast<int>(choice.switches.size()) + 1));
         places.push_back(animats.size());
         animats.push_back({name, core::Status::ok, {}});
       } else if (!(skip_embryo && format == embryo_format)) {
@@ -93,7 +95,7 @@ std::string format_of(const std::filesystem::path& file) {
 
 std::vector<Animat> read_animats(const std::vector<std::filesystem::path>& paths,
                                  const BodyChoice& choice, int threads) {
-  Reading reading{choice.rules, {}, {}, {}, {}};
+  Reading reading{choice, {}, {}, {}, {}};
   for (const std::filesystem::path& path : paths) {
     std::error_code error;
     if (!std::filesystem::is_directory(path, error)) {
@@ -108,7 +110,7 @@ std::vector<Animat> read_animats(const std::vector<std::filesystem::path>& paths
     }
   }
   if (!reading.faults.empty()) throw InputError(reading.faults);
-  grow(reading.animats, reading.places, reading.networks, choice, threads);
+  grow(reading.animats, reading.places, reading.lives, choice, threads);
   return std::move(reading.animats);
 }
 

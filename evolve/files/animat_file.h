@@ -13,8 +13,9 @@ namespace metamorph::evolve {
 /// How a genome becomes a body.
 struct BodyChoice {
   core::DevelopmentRules rules;
-  int stage = 1200;   ///< development step at which the body is taken, <= rules.steps
-  int min_cells = 8;  ///< fewer are no body
+  std::vector<int> switches = {};  ///< steps at which the next stage of life begins, ascending
+  int stage = 1200;                ///< development step at which the body is taken, <= rules.steps
+  int min_cells = 8;               ///< fewer are no body
 };
 
 /// Something that can be put into a scene.

@@ -70,6 +70,13 @@ LinkGene read_link(Members& members, FaultList& faults) {
         as_number(*weight, members.key_of("weight"), faults, -largest_weight, largest_weight)
             .value_or(0);
   }
+  const auto stage_of = [&](const char* name, int& stage) {
+    const Json* value = members.optional(name);
+    if (value == nullptr) return;
+    stage = as_integer(*value, members.key_of(name), faults, 0).value_or(stage);
+  };
+  stage_of("first_stage", link.stages.first);
+  stage_of("last_stage", link.stages.last);
   return link;
 }
 
@@ -133,6 +140,11 @@ std::string genome_text(const Genome& genome) {
     out.append(", \"from\": ").append(std::to_string(link.from));
     out.append(", \"to\": ").append(std::to_string(link.to)).append(", \"weight\": ");
     append_number(out, link.weight);
+    const auto& [first, last] = link.stages;
+    if (first > 0) out.append(", \"first_stage\": ").append(std::to_string(first));
+    if (last != Stages::end_of_life) {
+      out.append(", \"last_stage\": ").append(std::to_string(last));
+    }
     out += '}';
   });
   return text.append("\n}\n");

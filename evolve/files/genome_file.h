@@ -13,7 +13,8 @@ inline constexpr std::string_view genome_format = "metamorph-genome/1";
 inline constexpr double largest_weight = 1000;  ///< in a file; evolution stays within +-8
 
 /// Reads a genome file (see README, Files): `nodes` [{"id", "kind"}] and `links` [{"innovation",
-/// "from", "to", "weight"}], in any order; the ids are those of control_shape.h. The genome is
+/// "from", "to", "weight"}], in any order; the ids are those of control_shape.h. A link that is not
+/// expressed in all stages of life has "first_stage" or "last_stage" (from 0 on). The genome is
 /// sound: check() finds nothing. Throws InputError with all faults.
 Genome read_genome(const std::filesystem::path& file);
 /// The same for development by these rules: one with other inputs or outputs is a fault as well.

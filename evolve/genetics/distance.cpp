@@ -7,7 +7,25 @@ namespace metamorph::evolve {
 
 namespace {
 constexpr std::size_t lanes = 8;
+
+// Links that both have, but not in the same stages of life.
+std::size_t moved(const LinkArrays& a, const LinkArrays& b) {
+  const auto stages_of = [](const LinkArrays& arrays, std::size_t link) {
+    return arrays.stages.empty() ? Stages{} : arrays.stages[link];
+  };
+  if (a.stages.empty() && b.stages.empty()) return 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0, j = 0; i < a.innovation.size() && j < b.innovation.size();) {
+    if (a.innovation[i] == b.innovation[j]) {
+      count += stages_of(a, i++) != stages_of(b, j++);
+    } else {
+      ++(a.innovation[i] < b.innovation[j] ? i : j);
+    }
+  }
+  return count;
 }
+
+}  // namespace
 
 LinkArrays link_arrays(const Genome& genome) {
   LinkArrays arrays;
@@ -16,6 +34,9 @@ LinkArrays link_arrays(const Genome& genome) {
   for (const LinkGene& link : genome.links) {
     arrays.innovation.push_back(link.innovation);
     arrays.weight.push_back(link.weight);
+  }
+  if (is_separated(genome)) {
+    for (const LinkGene& link : genome.links) arrays.stages.push_back(link.stages);
   }
   return arrays;
 }
@@ -58,7 +79,7 @@ double distance(const LinkArrays& a, const LinkArrays& b, double factor, double 
     }
     if (static_cast<double>(unmatched) >= limit) return static_cast<double>(unmatched);
   }
-  unmatched += (size_a - i) + (size_b - j);
+  unmatched += (size_a - i) + (size_b - j) + moved(a, b);
   if (matching == 0) return static_cast<double>(unmatched);
   double total = 0;
   for (const double part : sum) total += part;

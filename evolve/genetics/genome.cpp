@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -168,7 +169,7 @@ void check_nodes(const Genome& genome, std::vector<std::string>& faults) {
 }
 
 void check_links(const Genome& genome, const std::set<int>& ids, std::vector<std::string>& faults) {
-  std::set<std::pair<int, int>> pairs;
+  std::map<std::pair<int, int>, std::vector<Stages>> joined;
   for (std::size_t l = 0; l < genome.links.size(); ++l) {
     const LinkGene& link = genome.links[l];
     const std::string name = fmt::format("link {} ({} -> {})", link.innovation, link.from, link.to);
@@ -183,9 +184,16 @@ void check_links(const Genome& genome, const std::set<int>& ids, std::vector<std
     if (kind_of(link.from) == NodeKind::output) faults.push_back(name + ": leaves an output");
     if (kind_of(link.to) == NodeKind::input) faults.push_back(name + ": enters an input");
     if (!std::isfinite(link.weight)) faults.push_back(name + ": the weight is not finite");
-    if (!pairs.insert({link.from, link.to}).second) {
+    const Stages& stages = link.stages;
+    if (stages.first < 0 || stages.last < stages.first) {
+      faults.push_back(name + ": the first of its stages is negative or after the last");
+    }
+    std::vector<Stages>& others = joined[{link.from, link.to}];
+    if (std::any_of(others.begin(), others.end(),
+                    [&](const Stages& other) { return other.overlaps(stages); })) {
       faults.push_back(name + ": a second link between the same nodes");
     }
+    others.push_back(stages);
   }
 }
 
@@ -276,13 +284,19 @@ std::vector<std::string> misfits(const Genome& genome, const ControlShape& shape
   return lines;
 }
 
+bool is_separated(const Genome& genome) {
+  return std::any_of(genome.links.begin(), genome.links.end(),
+                     [](const LinkGene& link) { return link.stages != Stages{}; });
+}
+
 core::Network compile(const Genome& genome, const ControlShape& shape) {
   const Adjacency graph = outgoing_links(genome);
   const Sweep swept = sweep(graph);
   const std::size_t nodes = genome.nodes.size();
   if (std::find(graph.from.begin(), graph.from.end(), -1) != graph.from.end() ||
-      swept.order.size() != nodes || !misfits(genome, shape).empty()) {
-    throw std::invalid_argument("compile: expected a sound genome that fits the shape");
+      swept.order.size() != nodes || !misfits(genome, shape).empty() || is_separated(genome)) {
+    throw std::invalid_argument(
+        "compile: expected a sound genome that fits the shape and is the same in all stages");
   }
 
   // Backwards along the order: which nodes reach an output.
@@ -353,6 +367,22 @@ core::Network compile(const Genome& genome, const ControlShape& shape) {
     network.first_link.push_back(network.first_link.back());  // a node without links
   }
   return network;
+}
+
+std::vector<core::Network> compile_stages(const Genome& genome, const ControlShape& shape,
+                                          int stages) {
+  if (!is_separated(genome)) return {compile(genome, shape)};
+  std::vector<core::Network> networks;
+  for (int stage = 0; stage < stages; ++stage) {
+    Genome expressed{genome.nodes, {}};
+    for (LinkGene link : genome.links) {
+      if (!link.stages.contains(stage)) continue;
+      link.stages = {};
+      expressed.links.push_back(link);
+    }
+    networks.push_back(compile(expressed, shape));
+  }
+  return networks;
 }
 
 }  // namespace metamorph::evolve

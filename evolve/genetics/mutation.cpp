@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -48,9 +47,11 @@ MutationKind mutate_weights(Genome& genome, const NeatSettings& settings, Random
   return redraw ? MutationKind::redraw : MutationKind::weights;
 }
 
-bool linked(const Genome& genome, int from, int to) {
-  return std::any_of(genome.links.begin(), genome.links.end(),
-                     [&](const LinkGene& link) { return link.from == from && link.to == to; });
+// Whether a link joins the two nodes in one of the stages.
+bool linked(const Genome& genome, int from, int to, const Stages& stages) {
+  return std::any_of(genome.links.begin(), genome.links.end(), [&](const LinkGene& link) {
+    return link.from == from && link.to == to && link.stages.overlaps(stages);
+  });
 }
 
 // Whether a path of links leads from one node to another (every node reaches itself).
@@ -68,8 +69,8 @@ bool reaches(const Genome& genome, int from, int to) {
   return false;
 }
 
-bool addable(const Genome& genome, int from, int to) {
-  return !linked(genome, from, to) && !reaches(genome, to, from);
+bool addable(const Genome& genome, const StructuralChange& link) {
+  return !linked(genome, link.from, link.to, link.stages) && !reaches(genome, link.to, link.from);
 }
 
 bool add_link(const Genome& genome, StructuralChange& change, const NeatSettings& settings,
@@ -79,28 +80,33 @@ bool add_link(const Genome& genome, StructuralChange& change, const NeatSettings
     if (node.kind != NodeKind::output) sources.push_back(node.id);
     if (node.kind != NodeKind::input) targets.push_back(node.id);
   }
+  const std::vector<Stages> stages = possible_stages(settings);
   change.kind = MutationKind::add_link;
-  // Drawing until a pair fits and drawing from the list of all fitting pairs have the same
-  // distribution. The list is long, so it is made only where few pairs fit.
+  // Drawing until a link fits and drawing from the list of all fitting links have the same
+  // distribution. The list is long, so it is made only where few links fit.
   constexpr int quick_tries = 32;
   bool found = false;
   for (int i = 0; i < quick_tries && !found; ++i) {
     change.from = sources[draw_below(sources.size(), stream)];
     change.to = targets[draw_below(targets.size(), stream)];
-    found = addable(genome, change.from, change.to);
+    change.stages = stages.size() > 1 ? stages[draw_below(stages.size(), stream)] : stages.front();
+    found = addable(genome, change);
   }
   if (!found) {
-    std::vector<std::pair<int, int>> pairs;
+    std::vector<StructuralChange> links;
     for (const int from : sources) {
       for (const int to : targets) {
-        if (addable(genome, from, to)) pairs.emplace_back(from, to);
+        for (const Stages& when : stages) {
+          const StructuralChange link = {MutationKind::add_link, from, to, 0, when};
+          if (addable(genome, link)) links.push_back(link);
+        }
       }
     }
-    if (pairs.empty()) {
+    if (links.empty()) {
       change = {};
       return false;
     }
-    std::tie(change.from, change.to) = pairs[draw_below(pairs.size(), stream)];
+    change = links[draw_below(links.size(), stream)];
   }
   change.weight = new_weight(settings, stream);
   return true;
@@ -113,7 +119,7 @@ bool add_node(const Genome& genome, StructuralChange& change, RandomStream& stre
   }
   if (splittable.empty()) return false;
   const LinkGene& link = *splittable[draw_below(splittable.size(), stream)];
-  change = {MutationKind::add_node, link.from, link.to, 0};
+  change = {MutationKind::add_node, link.from, link.to, 0, link.stages};
   return true;
 }
 
@@ -131,12 +137,40 @@ bool remove_link(Genome& genome, RandomStream& stream) {
   return true;
 }
 
+bool move_gene(Genome& genome, const NeatSettings& settings, RandomStream& stream) {
+  struct Move {
+    std::size_t link;
+    Stages to;
+  };
+  std::vector<Move> moves;
+  for (std::size_t l = 0; l < genome.links.size(); ++l) {
+    for (const Stages& to : possible_stages(settings)) {
+      if (to != genome.links[l].stages) moves.push_back({l, to});
+    }
+  }
+  while (!moves.empty()) {
+    const std::size_t drawn = draw_below(moves.size(), stream);
+    LinkGene& link = genome.links[moves[drawn].link];
+    const Stages before = std::exchange(link.stages, moves[drawn].to);
+    const auto is_in_the_way = [&](const LinkGene& other) {
+      return &other != &link && other.from == link.from && other.to == link.to &&
+             other.stages.overlaps(link.stages);
+    };
+    if (std::none_of(genome.links.begin(), genome.links.end(), is_in_the_way)) return true;
+    link.stages = before;
+    moves[drawn] = moves.back();
+    moves.pop_back();
+  }
+  return false;
+}
+
 MutationKind attempt(MutationKind kind, Genome& genome, StructuralChange& change,
                      const NeatSettings& settings, RandomStream& stream) {
   if (kind == MutationKind::weights) return mutate_weights(genome, settings, stream);
-  const bool done = kind == MutationKind::add_link   ? add_link(genome, change, settings, stream)
-                    : kind == MutationKind::add_node ? add_node(genome, change, stream)
-                                                     : remove_link(genome, stream);
+  const bool done = kind == MutationKind::add_link    ? add_link(genome, change, settings, stream)
+                    : kind == MutationKind::add_node  ? add_node(genome, change, stream)
+                    : kind == MutationKind::move_gene ? move_gene(genome, settings, stream)
+                                                      : remove_link(genome, stream);
   return done ? kind : MutationKind::none;
 }
 
@@ -144,13 +178,15 @@ MutationKind attempt(MutationKind kind, Genome& genome, StructuralChange& change
 
 MutationKind mutate(Genome& genome, StructuralChange& change, const NeatSettings& settings,
                     RandomStream& stream) {
-  std::array<std::pair<MutationKind, double>, 4> wheel = {
+  const bool movable = settings.separation == Separation::partial;
+  std::array<std::pair<MutationKind, double>, 5> wheel = {
       {{MutationKind::weights, settings.mutate_weights},
        {MutationKind::add_link, settings.add_link},
        {MutationKind::add_node, settings.add_node},
-       {MutationKind::remove_link, settings.remove_link}}};
+       {MutationKind::remove_link, settings.remove_link},
+       {MutationKind::move_gene, movable ? settings.move_gene : 0}}};
   // Whether a kind is possible depends on the genome alone, so taking an impossible one off the
-  // wheel equals drawing again until another comes, and ends after four draws at most.
+  // wheel equals drawing again until another comes, and ends after five draws at most.
   for (;;) {
     double total = 0;
     for (const auto& [kind, rate] : wheel) total += rate;

@@ -13,16 +13,26 @@ namespace metamorph::evolve {
 
 /// How an individual came to be: drawn for the first generation, a champion's copy, by crossover
 /// alone, or by a mutation (after a crossover or not).
-enum class Origin { first, copy, crossover, weights, redraw, add_link, add_node, remove_link };
-inline constexpr std::array origin_names = {
-    core::Named<Origin>{Origin::first, "first"},
-    core::Named<Origin>{Origin::copy, "copy"},
-    core::Named<Origin>{Origin::crossover, "crossover"},
-    core::Named<Origin>{Origin::weights, "weights"},
-    core::Named<Origin>{Origin::redraw, "redraw"},
-    core::Named<Origin>{Origin::add_link, "add_link"},
-    core::Named<Origin>{Origin::add_node, "add_node"},
-    core::Named<Origin>{Origin::remove_link, "remove_link"}};
+enum class Origin {
+  first,
+  copy,
+  crossover,
+  weights,
+  redraw,
+  add_link,
+  add_node,
+  remove_link,
+  move_gene
+};
+inline constexpr std::array origin_names = {core::Named<Origin>{Origin::first, "first"},
+                                            core::Named<Origin>{Origin::copy, "copy"},
+                                            core::Named<Origin>{Origin::crossover, "crossover"},
+                                            core::Named<Origin>{Origin::weights, "weights"},
+                                            core::Named<Origin>{Origin::redraw, "redraw"},
+                                            core::Named<Origin>{Origin::add_link, "add_link"},
+                                            core::Named<Origin>{Origin::add_node, "add_node"},
+                                            core::Named<Origin>{Origin::remove_link, "remove_link"},
+                                            core::Named<Origin>{Origin::move_gene, "move_gene"}};
 
 /// Who an individual is. Parent -1: none (generation 0); both equal -1 or second -1: asexual.
 struct Individual {

@@ -97,6 +97,8 @@ Origin origin_of(MutationKind kind) {
       return Origin::add_node;
     case MutationKind::remove_link:
       return Origin::remove_link;
+    case MutationKind::move_gene:
+      return Origin::move_gene;
     case MutationKind::weights:
     case MutationKind::none:
       break;

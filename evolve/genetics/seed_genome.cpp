@@ -1,12 +1,26 @@
 #include "metamorph/variation.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace metamorph::evolve {
 
 double new_weight(const NeatSettings& settings, RandomStream& stream) {
   return std::clamp(settings.initial_weight * stream.triangular(), -settings.weight_limit,
                     settings.weight_limit);
+}
+
+std::vector<Stages> possible_stages(const NeatSettings& settings) {
+  std::vector<Stages> all;
+  if (settings.separation != Separation::full) all.push_back({});
+  if (settings.separation == Separation::partial) {
+    for (int k = 1; k < settings.stages; ++k) all.push_back({k, Stages::end_of_life});
+    for (int k = 0; k + 1 < settings.stages; ++k) all.push_back({0, k});
+  }
+  if (settings.separation == Separation::full) {
+    for (int k = 0; k < settings.stages; ++k) all.push_back({k, k});
+  }
+  return all;
 }
 
 Genome seed_genome(const NeatSettings& settings, RandomStream& stream, const ControlShape& shape) {
@@ -31,6 +45,17 @@ Genome seed_genome(const NeatSettings& settings, RandomStream& stream, const Con
     for (const int output : shape.outputs) join(hidden, output);
   }
   for (const int output : shape.outputs) join(bias_input, output);
+  if (settings.separation == Separation::full) {
+    const std::vector<LinkGene> of_one_stage = std::move(genome.links);
+    genome.links.clear();
+    for (const Stages& stages : possible_stages(settings)) {
+      for (LinkGene link : of_one_stage) {
+        link.innovation = static_cast<int>(genome.links.size());
+        link.stages = stages;
+        genome.links.push_back(link);
+      }
+    }
+  }
   return genome;
 }
 

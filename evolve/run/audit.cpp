@@ -47,10 +47,8 @@ void keep_best(std::vector<Champion>& champions, int count) {
 }
 
 core::Extraction body_of(const Genome& genome, const Experiment& experiment, int stage) {
-  const std::vector<core::Network> networks = {compile(genome, shape_of(experiment.development))};
   const std::vector<int> stages = {stage};
-  const auto embryos = core::develop(networks, experiment.development, stages, 1);
-  return core::extract_body(embryos.front().front(), experiment.min_cells);
+  return core::extract_body(embryos_of(experiment, genome, stages).front(), experiment.min_cells);
 }
 
 /// The reference's outcome of the starts that the trial has in that generation.
@@ -245,8 +243,8 @@ RunAudit audit(const RunReader& run, const AuditOptions& options,
     const auto c = static_cast<std::size_t>(i);
     const Champion& champion = result.champions[c].champion;
     // By itself, because the starts may be those of its generation.
-    replays[c] = Evaluator(rules, 1).evaluate_fully(
-        compile(champion.genome, shape_of(rules.development)), champion.generation);
+    replays[c] = Evaluator(rules, 1).evaluate_fully(networks_of(experiment, champion.genome),
+                                                    champion.generation);
   }
   for (std::size_t c = 0; c < replays.size(); ++c) {
     const Champion& champion = result.champions[c].champion;

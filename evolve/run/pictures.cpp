@@ -11,10 +11,8 @@ namespace metamorph::evolve {
 
 Sheet individual_sheet(const Experiment& experiment, const Genome& genome,
                        std::span<const core::Outcome> trials, const std::string& heading) {
-  const core::Network network = compile(genome, shape_of(experiment.development));
   const std::vector<int> steps = experiment.stages();
-  const std::vector<core::Embryo> embryos =
-      core::develop({&network, 1}, experiment.development, steps, 1).front();
+  const std::vector<core::Embryo> embryos = embryos_of(experiment, genome, steps);
   std::vector<Stage> stages;
   for (std::size_t t = 0; t < experiment.trials.size(); ++t) {
     const Trial& trial = experiment.trials[t];

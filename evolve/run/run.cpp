@@ -11,42 +11,43 @@
 namespace metamorph::evolve {
 namespace {
 
-std::vector<core::Network> compile_all(const std::vector<Genome>& genomes,
-                                       const ControlShape& shape, int threads) {
-  std::vector<core::Network> networks(genomes.size());
+/// [genomes] The networks of each in its stages of life.
+using Lives = std::vector<std::vector<core::Network>>;
+
+Lives compile_all(const std::vector<Genome>& genomes, const Experiment& experiment, int threads) {
+  Lives lives(genomes.size());
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(genomes.size()); ++i) {
     const auto n = static_cast<std::size_t>(i);
-    networks[n] = compile(genomes[n], shape);
+    lives[n] = networks_of(experiment, genomes[n]);
   }
-  return networks;
+  return lives;
 }
 
 /// Grows the best individual by score through all trials, for the record: progressive search runs
 /// only larvae at first, but the figures show what adults their best would become.
-void complete_best(const std::vector<core::Network>& networks, Evaluator& evaluator,
-                   GenerationResult& result, std::vector<Evaluation>& evaluations) {
+void complete_best(const Lives& lives, Evaluator& evaluator, GenerationResult& result,
+                   std::vector<Evaluation>& evaluations) {
   const auto best = static_cast<std::size_t>(
       std::max_element(result.scores.begin(), result.scores.end()) - result.scores.begin());
   Evaluated& evaluated = result.individuals[best];
   const bool complete = std::all_of(evaluated.evaluated.begin(), evaluated.evaluated.end(),
                                     [](std::uint8_t ran) { return ran != 0; });
   if (complete) return;
-  evaluated = evaluator.evaluate_fully(networks[best], result.generation);
+  evaluated = evaluator.evaluate_fully(lives[best], result.generation);
   evaluations[best] = evaluation_of(evaluated);
 }
 
-GenerationResult run_generation(Search& search, Evaluator& evaluator, int threads,
-                                PhaseSeconds& seconds) {
+GenerationResult run_generation(const Experiment& experiment, Search& search, Evaluator& evaluator,
+                                int threads, PhaseSeconds& seconds) {
   Stopwatch watch;
   GenerationResult result;
   result.asked = search.ask();
   result.generation = result.asked.generation;
   seconds.search += watch.lap();
-  const std::vector<core::Network> networks =
-      compile_all(result.asked.genomes, shape_of(evaluator.rules().development), threads);
+  const Lives lives = compile_all(result.asked.genomes, experiment, threads);
   seconds.evaluation.develop += watch.lap();
-  result.individuals = evaluator.evaluate(networks, result.asked.measured, result.generation);
+  result.individuals = evaluator.evaluate(lives, result.asked.measured, result.generation);
   result.work = evaluator.work();
   watch.lap();
   std::vector<Evaluation> evaluations;
@@ -55,7 +56,7 @@ GenerationResult run_generation(Search& search, Evaluator& evaluator, int thread
   result.scores = std::move(told.scores);
   result.search_rows = std::move(told.rows);
   seconds.search += watch.lap();
-  complete_best(networks, evaluator, result, evaluations);
+  complete_best(lives, evaluator, result, evaluations);
   for (const Evaluation& evaluation : evaluations) {
     result.eq6.push_back(geometric_mean(evaluation));
   }
@@ -100,7 +101,8 @@ RunSummary run(Record& record, const RunOptions& options) {
     Stopwatch whole;
     PhaseSeconds seconds;
     const EvaluationSeconds before = evaluator.seconds();
-    const GenerationResult result = run_generation(*search, evaluator, threads, seconds);
+    const GenerationResult result =
+        run_generation(experiment, *search, evaluator, threads, seconds);
     seconds.evaluation += evaluator.seconds() - before;
     const bool improved = keep_best(result, best);
     Stopwatch watch;

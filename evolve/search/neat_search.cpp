@@ -10,18 +10,26 @@
 
 #include "evolve/search/population_json.h"
 #include "metamorph/threads.h"
+#include "metamorph/variation.h"
 
 namespace metamorph::evolve {
 
 namespace {
-// Tables that every NEAT search has, in this order; those of its scorer follow.
+// Tables that every NEAT search has, in this order; with separated stages another one follows, then
+// those of its scorer.
 constexpr std::size_t origins_table = 3, changes_table = 4, own_tables = 5;
+
+NeatSettings with_stages(NeatSettings settings, const Problem& problem) {
+  settings.stages = stage_count(problem);
+  return settings;
+}
+
 }  // namespace
 
 nlohmann::json Scorer::save() const { return nullptr; }
 
 NeatSearch::NeatSearch(const SearchSetup& setup, std::unique_ptr<Scorer> scorer)
-    : settings_(setup.neat),
+    : settings_(with_stages(setup.neat, setup.problem)),
       problem_(setup.problem),
       threads_(core::thread_count(setup.threads)),
       scorer_(std::move(scorer)),
@@ -128,6 +136,15 @@ std::vector<Table> NeatSearch::tables() const {
       {"species_changes",
        {{"generation", Type::integer}, {"species", Type::integer}, {"change", Type::text}},
        2}};
+  // How many links a genome has, in the mean, that are expressed in these stages of life.
+  if (settings_.separation != Separation::none) {
+    tables.push_back({"gene_stages",
+                      {{"generation", Type::integer},
+                       {"first", Type::integer},
+                       {"last", Type::integer},
+                       {"links", Type::real}},
+                      3});
+  }
   for (Table& table : scorer_->tables()) tables.push_back(std::move(table));
   return tables;
 }
@@ -154,6 +171,7 @@ std::vector<std::vector<Row>> NeatSearch::rows_of(const std::vector<double>& sco
                        std::int64_t{species.size}, species.best_ever,
                        std::int64_t{species.stagnant}, best, members > 0 ? sum / members : 0.0});
   }
+  if (settings_.separation != Separation::none) rows.push_back(gene_rows());
   for (auto& more : scorer_->rows()) rows.push_back(std::move(more));
   return rows;
 }
@@ -180,6 +198,25 @@ std::vector<Row> NeatSearch::origin_rows(const std::vector<double>& merits) cons
   for (const auto& [key, count] : counts) {
     rows.push_back({std::int64_t{population_.generation}, std::string(key.first),
                     std::int64_t{key.second}, count.children, count.better, count.dead});
+  }
+  return rows;
+}
+
+std::vector<Row> NeatSearch::gene_rows() const {
+  std::map<std::pair<int, int>, std::int64_t> links;
+  for (const Stages& stages : possible_stages(settings_)) {
+    links[{stages.first, std::min(stages.last, settings_.stages - 1)}] = 0;
+  }
+  for (const Genome& genome : population_.genomes) {
+    for (const LinkGene& link : genome.links) {
+      ++links[{link.stages.first, std::min(link.stages.last, settings_.stages - 1)}];
+    }
+  }
+  std::vector<Row> rows;
+  for (const auto& [stages, count] : links) {
+    rows.push_back({std::int64_t{population_.generation}, std::int64_t{stages.first},
+                    std::int64_t{stages.second},
+                    static_cast<double>(count) / settings_.population});
   }
   return rows;
 }

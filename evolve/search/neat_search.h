@@ -27,6 +27,7 @@ class NeatSearch : public Search {
   std::vector<std::uint8_t> measured() const;
   std::vector<std::vector<Row>> rows_of(const std::vector<double>& scores) const;
   std::vector<Row> origin_rows(const std::vector<double>& merits) const;
+  std::vector<Row> gene_rows() const;
 
   NeatSettings settings_;
   Problem problem_;

@@ -59,20 +59,24 @@ void read_list(const Json& json, std::vector<T>& list, Read read) {
 Json to_json(const Genome& genome) {
   // Flat lists, a value after the other: a tenth of the objects.
   const auto& [nodes, links] = genome;
-  Json::array_t node_list, link_list;
+  Json::array_t node_list, link_list, stage_list;
   node_list.reserve(2 * nodes.size());
   link_list.reserve(4 * links.size());
   for (const auto& [id, kind] : nodes) {
     node_list.emplace_back(id);
     node_list.emplace_back(static_cast<int>(kind));
   }
-  for (const auto& [innovation, from, to, weight] : links) {
+  for (const auto& [innovation, from, to, weight, stages] : links) {
+    stage_list.emplace_back(stages.first);
+    stage_list.emplace_back(stages.last);
     link_list.emplace_back(innovation);
     link_list.emplace_back(from);
     link_list.emplace_back(to);
     link_list.emplace_back(weight);
   }
-  return {{"nodes", std::move(node_list)}, {"links", std::move(link_list)}};
+  Json json = {{"nodes", std::move(node_list)}, {"links", std::move(link_list)}};
+  if (is_separated(genome)) json["stages"] = std::move(stage_list);
+  return json;
 }
 
 Genome genome_of(const Json& json) {
@@ -86,6 +90,11 @@ Genome genome_of(const Json& json) {
   for (std::size_t i = 0; i < links.size(); i += 4) {
     genome.links.push_back({links.at(i).get<int>(), links.at(i + 1).get<int>(),
                             links.at(i + 2).get<int>(), links.at(i + 3).get<double>()});
+  }
+  if (const auto stages = json.find("stages"); stages != json.end()) {
+    for (std::size_t i = 0; i < genome.links.size(); ++i) {
+      genome.links[i].stages = {stages->at(2 * i).get<int>(), stages->at(2 * i + 1).get<int>()};
+    }
   }
   return genome;
 }

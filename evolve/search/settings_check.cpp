@@ -99,6 +99,11 @@ void check_problem(const Problem& problem, std::vector<Contradiction>& found) {
   }
 }
 
+void check_separation(const SearchSetup& setup, std::vector<Contradiction>& found) {
+  if (setup.neat.separation == Separation::none || stage_count(setup.problem) > 1) return;
+  found.push_back({"neat.separation", "none: life has one stage, so nothing can be separated"});
+}
+
 void check_shape(const ControlShape& shape, std::vector<Contradiction>& found) {
   const auto all_are = [](const std::vector<int>& ids, NodeKind kind) {
     std::vector<int> sorted = ids;
@@ -136,6 +141,7 @@ std::vector<Contradiction> faults(const SearchSetup& setup) {
   check_neat(setup.neat, found);
   check_values(setup.settings, found);
   check_problem(setup.problem, found);
+  check_separation(setup, found);
   check_shape(setup.shape, found);
   const auto& kinds = search_kinds();
   const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](const SearchKind& k) {

@@ -74,7 +74,8 @@ TEST(RandomDevelopment, FloatFollowsDoubleAtFirst) {
   Developer<double> in_double({});
   int grown = 0;
   for (const Network& network : population(13, 100)) {
-    const Embryo a = in_float(network, stages).front(), b = in_double(network, stages).front();
+    const Controls alone = {{&network, 1}, {}};
+    const Embryo a = in_float(alone, stages).front(), b = in_double(alone, stages).front();
     ASSERT_EQ(a.id, b.id);
     ASSERT_EQ(a.links, b.links);
     for (std::size_t i = 0; i < a.x.size(); ++i) {

@@ -41,6 +41,8 @@ TEST(Checkpoint, EveryFieldOfAPopulationComesBack) {
   population.genomes = {genome_of(0), genome_of(3)};
   population.individuals = {{100, -1, -1, 2}, {(std::int64_t{1} << 40) + 1, 100, 99, 5}};
   population.species = {{2, genome_of(1), 4, 0.1 + 0.2, 3, 1}, {5, genome_of(2), 0, -1, 0, 1}};
+  population.genomes[1].links[0].stages = {1, Stages::end_of_life};
+  population.genomes[1].links[1].stages = {0, 2};
   population.next_individual = 102;
   population.next_species = 6;
   population.next_innovation = 1234;
@@ -50,6 +52,14 @@ TEST(Checkpoint, EveryFieldOfAPopulationComesBack) {
   const PopulationState back = population_of(nlohmann::json::from_cbor(bytes));
   EXPECT_EQ(back, population);
   EXPECT_TRUE(std::signbit(back.genomes[0].links[1].weight));
+}
+
+// What checkpoints were before genes had stages is what they are without.
+TEST(Checkpoint, AGenomeSaysNothingOfStagesThatAreAll) {
+  Genome genome = genome_of(1);
+  EXPECT_FALSE(to_json(genome).contains("stages"));
+  genome.links[0].stages.last = 0;
+  EXPECT_EQ(to_json(genome).at("stages").size(), 2 * genome.links.size());
 }
 
 TEST(Checkpoint, EveryShorterFormIsRefused) {

@@ -63,6 +63,10 @@ const std::vector<Expected> model_experiments = [] {
   }
   all.push_back(
       {"slope-metamorphic", "progressive", 1000, 800, 128, {{400, "land-right"}, {800, "slope"}}});
+  all.push_back(
+      {"newt", "progressive", 2000, 1200, 256, {{400, "water"}, {800, "land"}, {1200, "water"}}});
+  all.push_back(
+      {"water-to-land-separated", "novelty", 2000, 1200, 256, {{600, "water"}, {1200, "land"}}});
   all.push_back({"slope-specialist-flat", "simple", 1000, 400, 128, {{400, "land-right"}}});
   all.push_back({"slope-specialist-slope", "simple", 1000, 800, 128, {{800, "slope"}}});
   return all;
@@ -85,6 +89,8 @@ TEST(Experiment, ShippedFilesAreThoseOfTheModel) {
       // On land selection would keep lucky throws; water forgets how a body started.
       EXPECT_EQ(e.trials[t].starts_renew, e.scene_of(e.trials[t]).ground);
     }
+    const bool separated = expected.name == "water-to-land-separated";
+    EXPECT_EQ(e.neat.separation, separated ? Separation::full : Separation::none);
   }
 }
 
@@ -353,6 +359,13 @@ TEST(Experiment, EveryFaultGetsItsLine) {
        "x.toml:11: scenes.water.step = 1: expected at most scenes.water.run_steps * 0.2 = 0.8"},
       {g + "[neat]\nspecies_max = 3\n",
        "x.toml: neat.species_min = 15: expected at most neat.species_max = 3"},
+      {g + "[neat]\nseparation = \"half\"\n",
+       "x.toml:11: neat.separation = \"half\": expected one of \"none\", \"partial\", \"full\""},
+      {"name = \"x\"\n[neat]\nseparation = \"full\"\n"
+       "[[trials]]\nname = \"a\"\nstage = 600\nscene = \"water\"\n"
+       "[[trials]]\nname = \"b\"\nstage = 600\nscene = \"land\"\n",
+       "x.toml:3: neat.separation = \"full\": expected none: life has one stage, so nothing can be "
+       "separated"},
       {g + "[neat]\nmutate_weights = 0\n",
        "x.toml:11: neat.mutate_weights = 0: expected more than 0: the other mutations can all "
        "fail"},

@@ -53,10 +53,10 @@ TEST(Fingerprint, EveryBitOfABodyCounts) {
 
 TEST(Fingerprint, EveryBitOfANetworkCounts) {
   core::Network network = compile(testing::wander(testing::restless(), 1, 30, 1).front());
-  Prints seen = {fingerprint(network)};
+  Prints seen = {fingerprint({&network, 1})};
   std::size_t variants = 1;
   const auto visit = [&] {
-    seen.insert(fingerprint(network));
+    seen.insert(fingerprint({&network, 1}));
     ++variants;
   };
   for_every_bit(network.first_link, visit);
@@ -109,7 +109,7 @@ TEST(Fingerprint, EqualExactlyWhereTheContentIs) {
           a.first_link == b.first_link && a.source == b.source &&
           a.weight.size() == b.weight.size() && a.output == b.output &&
           std::memcmp(a.weight.data(), b.weight.data(), a.weight.size() * sizeof(float)) == 0;
-      ASSERT_EQ(fingerprint(a) == fingerprint(b), same);
+      ASSERT_EQ(fingerprint({&a, 1}) == fingerprint({&b, 1}), same);
       equal += same;
     }
   }

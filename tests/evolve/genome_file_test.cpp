@@ -77,6 +77,24 @@ TEST(GenomeFile, HoldsAnInputThatCameLater) {
   EXPECT_THAT(lines_of([&] { check_fits(genome, rules, "f"); }), ::testing::IsEmpty());
 }
 
+TEST(GenomeFile, HoldsTheStagesOfLinksThatAreNotOfAllLife) {
+  Genome genome = layered(1, 7);
+  EXPECT_THAT(genome_text(genome), ::testing::Not(::testing::HasSubstr("stage")));
+  genome.links[0].stages = {0, 2};
+  genome.links[1].stages = {1, Stages::end_of_life};
+  genome.links[2].stages = {3, 3};
+  const std::string text = genome_text(genome);
+  EXPECT_EQ(parse_genome(text, "f"), genome);
+  const Json links = Json::parse(text)["links"];
+  EXPECT_FALSE(links[0].contains("first_stage"));
+  EXPECT_EQ(links[0]["last_stage"], 2);
+  EXPECT_EQ(links[1]["first_stage"], 1);
+  EXPECT_FALSE(links[1].contains("last_stage"));
+  EXPECT_EQ(links[2]["first_stage"], 3);
+  EXPECT_EQ(links[2]["last_stage"], 3);
+  EXPECT_EQ(links[3].size(), 4u);
+}
+
 TEST(GenomeFile, OrderInTheFileDoesNotMatter) {
   Json object = small();
   std::reverse(object["nodes"].begin(), object["nodes"].end());
@@ -122,7 +140,10 @@ TEST(GenomeFile, NamesEveryFaultOfFormAndRange) {
       {with("/links/1/weight", "w"), "links[1].weight: \"w\": " + weight},
       {with("/links/1/weight", 1e4), "links[1].weight: 10000.0: " + weight},
       {with("/links/1/enabled", true),
-       "links[1].enabled: unknown key: expected one of innovation, from, to, weight"},
+       "links[1].enabled: unknown key: expected one of innovation, from, to, weight, first_stage, "
+       "last_stage"},
+      {with("/links/1/first_stage", -1), "links[1].first_stage: -1: " + integer},
+      {with("/links/1/last_stage", "end"), "links[1].last_stage: \"end\": " + integer},
   };
   for (const auto& [json, line] : table)
     EXPECT_THAT(faults(json.dump()), ElementsAre("f: " + line));
@@ -145,6 +166,12 @@ TEST(GenomeFile, RefusesGenomesThatAreUnsound) {
       with("/links/1/innovation", 1),    // twice the same innovation
       with("/links/1/from", 0),          // twice the same pair
       with("/links/6", {{"innovation", 19}, {"from", 13}, {"to", 13}, {"weight", 1}}),  // a cycle
+      with("/links/1", {{"innovation", 4},
+                        {"from", 1},
+                        {"to", 13},
+                        {"weight", 1},
+                        {"first_stage", 2},
+                        {"last_stage", 1}}),  // never expressed
   };
   for (const Json& json : table) {
     const auto lines = faults(json.dump());

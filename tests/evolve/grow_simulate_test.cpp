@@ -126,6 +126,28 @@ TEST_F(Program, GrowWritesTheStepsAskedFor) {
   EXPECT_THAT(tests::text_of(here() / "row" / "development.svg"), HasSubstr("<svg"));
 }
 
+// Genes that begin with the adult leave the larva as it is, to the last digit; that the adult has
+// them shows that commands know where its life begins.
+TEST_F(Program, GrowsAndSimulatesGenesOfOneStage) {
+  Genome genome = blob_genome();
+  genome.links.push_back({7, 5, 6, 9.0, {1, Stages::end_of_life}});  // adults do not divide
+  write_genome(here() / "parted.json", genome, Overwrite::no);
+  const std::string rules = " --set development.steps=600 --json";
+  const std::string stages = " --at 300,600";
+  const auto plain = json_lines(run("grow blob.json" + stages + rules).out);
+  const auto parted = json_lines(run("grow parted.json --check-links" + stages + rules).out);
+  ASSERT_EQ(plain.size(), 2u);
+  ASSERT_EQ(parted.size(), 2u);
+  const auto file = [&](const char* name) { return tests::text_of(here() / name); };
+  EXPECT_EQ(file("blob/embryo-0300.json"), file("parted/embryo-0300.json"));
+  EXPECT_EQ(parted[1]["embryo_cells"], parted[0]["embryo_cells"]);
+  EXPECT_GT(plain[1]["embryo_cells"], plain[0]["embryo_cells"]);
+  const auto moved =
+      json_lines(run("simulate parted.json --set development.steps=600 --steps 20 --json").out);
+  ASSERT_EQ(moved.size(), 1u);
+  EXPECT_EQ(moved[0]["cells"], parted[1]["cells"]);
+}
+
 TEST_F(Program, GrowChecksLinks) {
   // A row of n cells has n - 1 links. Neighbours are renewed at every tenth step and after births:
   // a cell in each of the 4 updates, at steps 0, 30, 60 and 90. The end is a renewal, too:

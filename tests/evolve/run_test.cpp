@@ -82,6 +82,58 @@ TEST(Run, ThreeStagesOfLifeOnOneAndTwoThreadsAndInterrupted) {
   }
 }
 
+TEST(Run, WithGenesOfStagesOnOneAndTwoThreadsAndInterrupted) {
+  const TemporaryDirectory directory;
+  for (const Separation separation : {Separation::partial, Separation::full}) {
+    for (const std::string& kind : kinds) {
+      Experiment e = tiny_newt(kind, 6);
+      e.neat.separation = separation;
+      e.neat.move_gene = 1;
+      const std::string name =
+          kind + std::string(separation_names[static_cast<std::size_t>(separation)].name);
+      const auto path = directory.path() / (name + "-whole");
+      run_whole(path, e, 1);
+      run_whole(directory.path() / (name + "-threads"), e, 2);
+      run_in_pieces(directory.path() / (name + "-pieces"), e, {1, 4});
+      const auto expected = contents(path);
+      EXPECT_EQ(contents(directory.path() / (name + "-threads")), expected);
+      EXPECT_EQ(contents(directory.path() / (name + "-pieces")), expected);
+
+      // Every choice of stages has its row in every generation, and at first all is as it was sown.
+      const bool full = separation == Separation::full;
+      Database database(path / "run.db", Database::Mode::read);
+      Statement rows(database,
+                     "SELECT generation, first, last, links FROM gene_stages ORDER BY 1, 2, 3");
+      double moved = 0;
+      for (int g = 0; g < 6; ++g) {
+        const std::vector<std::pair<int, int>> choices =
+            full ? std::vector<std::pair<int, int>>{{0, 0}, {1, 1}, {2, 2}}
+                 : std::vector<std::pair<int, int>>{{0, 0}, {0, 1}, {0, 2}, {1, 2}, {2, 2}};
+        for (const auto& [first, last] : choices) {
+          ASSERT_TRUE(rows.step());
+          EXPECT_EQ(rows.integer(0), g);
+          EXPECT_EQ(rows.integer(1), first);
+          EXPECT_EQ(rows.integer(2), last);
+          const bool sown = full || last - first == 2;
+          if (g == 0) {
+            EXPECT_EQ(rows.real(3), sown ? 6 * 8 + 8 * 7 + 7 : 0);
+          }
+          if (!sown) moved += rows.real(3);
+        }
+      }
+      EXPECT_FALSE(rows.step());
+      EXPECT_EQ(moved > 0, !full);
+    }
+  }
+}
+
+TEST(Run, HasNoTableOfStagesWithoutSeparation) {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "plain";
+  run_whole(path, tiny_experiment("simple", 1));
+  EXPECT_FALSE(contents(path).contains("gene_stages"));
+}
+
 TEST(Run, CheckingLinksChangesNoBit) {
   const TemporaryDirectory directory;
   const Experiment e = tiny_experiment("progressive", 3);
@@ -298,6 +350,39 @@ TEST(Evaluator, RememberedResultsAreThoseOfAFreshEvaluation) {
       }
     }
   }
+}
+
+// Genes that are the same in all stages are one network, however they are written; and what a larva
+// is does not depend on the networks of later stages.
+TEST(Evaluator, TakesANetworkForEveryStageOfLife) {
+  const Experiment e = tiny_newt("simple", 2);
+  std::vector<std::vector<core::Network>> single, equal, mixed;
+  const auto networks = networks_of(first_generation(e.neat, 5).genomes);
+  const auto others = networks_of(first_generation(e.neat, 6).genomes);
+  for (std::size_t i = 0; i < networks.size(); ++i) {
+    single.push_back({networks[i]});
+    equal.push_back({networks[i], networks[i], networks[i]});
+    mixed.push_back({networks[i], networks[i], others[i]});
+  }
+  const std::vector<std::uint8_t> all = {1, 1, 1};
+  Evaluator evaluator(rules_of(e), 1);
+  const auto plain = evaluator.evaluate(networks, all, 0);
+  const auto a = evaluator.evaluate(single, all, 0), b = evaluator.evaluate(equal, all, 0),
+             c = evaluator.evaluate(mixed, all, 0);
+  int parted = 0;
+  for (std::size_t i = 0; i < networks.size(); ++i) {
+    const Evaluated alone = Evaluator(rules_of(e), 1).evaluate_fully(mixed[i], 0);
+    for (std::size_t t = 0; t < 3; ++t) {
+      EXPECT_EQ(a[i].trials[t].distance, plain[i].trials[t].distance);
+      EXPECT_EQ(b[i].trials[t].distance, plain[i].trials[t].distance);
+      EXPECT_EQ(alone.trials[t].distance, c[i].trials[t].distance);
+      if (t < 2) {
+        EXPECT_EQ(c[i].trials[t].distance, plain[i].trials[t].distance);
+      }
+    }
+    parted += c[i].trials[2].distance != plain[i].trials[2].distance;
+  }
+  EXPECT_GT(parted, 0);
 }
 
 TEST(Evaluator, TooManyCellsCostFitness) {

@@ -63,4 +63,13 @@ std::vector<std::vector<Embryo>> develop(std::span<const Network> networks,
                                          const DevelopmentRules& rules, std::span<const int> stages,
                                          int threads);
 
+/// The same for embryos that are controlled by one network after the other. lives[embryo] holds
+/// either one network, for all of life, or switches.size() + 1: from step switches[k] on, networks
+/// [k + 1] does the updates. An embryo that is taken out at that very step still is of the life
+/// before: its oscillators are those of networks[k]. `switches`: ascending steps.
+std::vector<std::vector<Embryo>> develop(std::span<const std::vector<Network>> lives,
+                                         std::span<const int> switches,
+                                         const DevelopmentRules& rules, std::span<const int> stages,
+                                         int threads);
+
 }  // namespace metamorph::core

@@ -37,6 +37,9 @@ struct Problem {
   std::uint64_t seed = 1;  ///< of every random number of the search
 };
 
+/// The stages of life: the distinct ages at which objectives are measured.
+int stage_count(const Problem& problem);
+
 /// The non-negative n-th root of x >= 0, n > 0; the same bits on every machine.
 double root(double x, int n);
 

@@ -132,9 +132,15 @@ class Evaluator {
   /// them, and nothing else.
   std::vector<Evaluated> evaluate(std::span<const core::Network> networks,
                                   const std::vector<std::uint8_t>& run_trial, int generation);
+  /// The same of individuals that have either one network, for all of life, or one for each of its
+  /// stages: the distinct stages of the trials, ascending; networks[k] controls development up to
+  /// the end of stage k.
+  std::vector<Evaluated> evaluate(std::span<const std::vector<core::Network>> lives,
+                                  const std::vector<std::uint8_t>& run_trial, int generation);
 
-  /// All trials of one network, as evaluate() has them in that generation.
+  /// All trials of one individual, as evaluate() has them in that generation.
   Evaluated evaluate_fully(const core::Network& network, int generation);
+  Evaluated evaluate_fully(const std::vector<core::Network>& life, int generation);
 
   const EvaluationRules& rules() const;
   EvaluationWork work() const;        ///< of the last call of evaluate()

@@ -4,7 +4,18 @@
 #include <string_view>
 #include <variant>
 
+#include "metamorph/named.h"
+
 namespace metamorph::evolve {
+
+/// How far the stages of life have genes of their own. none: every link is expressed in all of
+/// them; partial: at first, and mutations confine links to the stages from one on or up to one;
+/// full: every link belongs to one stage.
+enum class Separation { none, partial, full };
+inline constexpr std::array separation_names = {
+    core::Named<Separation>{Separation::none, "none"},
+    core::Named<Separation>{Separation::partial, "partial"},
+    core::Named<Separation>{Separation::full, "full"}};
 
 /// Settings of NEAT (MODEL section 5). Initially what evolved best here (bench/SEARCH.md).
 struct NeatSettings {
@@ -33,6 +44,8 @@ struct NeatSettings {
   double add_link = 0.07;
   double add_node = 0.01;
   double remove_link = 0.01;
+  double move_gene = 0.07;
+  Separation separation = Separation::none;
   double severe = 0.05;
   double redrawn_share = 1;
   double weight_change = 1.0;
@@ -41,13 +54,14 @@ struct NeatSettings {
   double node_weight = 2;
   double fitness_floor = 1e-4;
   int clone_tries = 10;
+  int stages = 1;  ///< of life; no key: the problem says it
 };
 
-/// One number of NEAT.
+/// One setting of NEAT.
 struct NeatField {
   std::string_view name;  ///< of the member, and of the key that sets it in experiments
-  std::variant<int NeatSettings::*, double NeatSettings::*> member;
-  double paper;      ///< what the paper's search has
+  std::variant<int NeatSettings::*, double NeatSettings::*, Separation NeatSettings::*> member;
+  double paper;      ///< what the paper's search has; of a choice its value as a number
   double low, high;  ///< both ends included
   std::string_view meaning;
 };
@@ -95,6 +109,12 @@ inline constexpr std::array neat_fields = [] {
       NeatField{"add_link", &N::add_link, 0.07, 0, 1e6, "rate in the mutation roulette"},
       NeatField{"add_node", &N::add_node, 0.01, 0, 1e6, "rate in the mutation roulette"},
       NeatField{"remove_link", &N::remove_link, 0.01, 0, 1e6, "rate in the mutation roulette"},
+      NeatField{"move_gene", &N::move_gene, 0, 0, 1e6,
+                "rate in the mutation roulette, with partial separation: a link is expressed in "
+                "other stages"},
+      NeatField{"separation", &N::separation, 0, 0, 2,
+                "genes of one's own for the stages of life: partial lets evolution confine links "
+                "to some, full gives every stage its own from the start"},
       NeatField{"severe", &N::severe, 0.25, 0, 1,
                 "share of weight mutations that redraw weights instead of moving them"},
       NeatField{"redrawn_share", &N::redrawn_share, 1, 0, 1,
