@@ -31,7 +31,7 @@ struct Kind {
 
 std::vector<Kind> kinds(const NeatSettings& base) {
   NeatSettings none = base;
-  none.mutate_weights = none.add_link = none.add_node = none.remove_link = 0;
+  none.mutate_weights = none.add_link = none.add_node = none.remove_link = none.move_gene = 0;
   std::vector<Kind> result;
   const auto add = [&](const char* name, auto change) {
     result.push_back({name, none});
@@ -66,12 +66,12 @@ std::vector<Kind> kinds(const NeatSettings& base) {
   return result;
 }
 
-std::vector<Evaluated> evaluate(Evaluator& evaluator, const std::vector<Genome>& genomes) {
-  std::vector<metamorph::core::Network> networks;
-  const ControlShape shape = shape_of(evaluator.rules().development);
-  for (const Genome& genome : genomes) networks.push_back(compile(genome, shape));
+std::vector<Evaluated> evaluate(Evaluator& evaluator, const Experiment& experiment,
+                                const std::vector<Genome>& genomes) {
+  std::vector<std::vector<metamorph::core::Network>> lives;
+  for (const Genome& genome : genomes) lives.push_back(networks_of(experiment, genome));
   const std::vector<std::uint8_t> all(evaluator.rules().trials.size(), 1);
-  return evaluator.evaluate(networks, all, 0);
+  return evaluator.evaluate(lives, all, 0);
 }
 
 double merit(const Evaluated& one) { return geometric_mean(evaluation_of(one)); }
@@ -92,7 +92,7 @@ int run(int argc, char** argv) {
   const Genome genome = read_genome(argv[2], experiment.development);
   const int children = std::atoi(argv[3]);
   Evaluator evaluator(rules_of(experiment));
-  const Evaluated original = evaluate(evaluator, {genome}).front();
+  const Evaluated original = evaluate(evaluator, experiment, {genome}).front();
   const double own = merit(original);
   fmt::print("eq 6 of the genome: {:.2f} d, {} links; {} children of each kind\n\n", own,
              genome.links.size(), children);
@@ -104,7 +104,9 @@ int run(int argc, char** argv) {
   for (std::size_t t = 0; t < experiment.trials.size(); ++t) fmt::print("---|---|");
   fmt::print("\n");
   std::uint32_t number = 0;
-  for (const Kind& kind : kinds(experiment.neat)) {
+  NeatSettings neat = experiment.neat;
+  neat.stages = static_cast<int>(experiment.stages().size());
+  for (const Kind& kind : kinds(neat)) {
     std::vector<Genome> mutants(static_cast<std::size_t>(children), genome);
     for (Genome& mutant : mutants) {
       RandomStream stream(Purpose::mutation, experiment.seed, 0, number++);
@@ -114,7 +116,7 @@ int run(int argc, char** argv) {
       int next_node = std::max(genome.nodes.back().id + 1, first_hidden);
       Innovations(next_innovation, next_node).apply(change, kind.settings, mutant);
     }
-    const std::vector<Evaluated> evaluated = evaluate(evaluator, mutants);
+    const std::vector<Evaluated> evaluated = evaluate(evaluator, experiment, mutants);
     std::vector<double> all;
     for (const Evaluated& one : evaluated) all.push_back(merit(one));
     std::sort(all.begin(), all.end());
