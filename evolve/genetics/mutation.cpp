@@ -142,13 +142,14 @@ bool move_gene(Genome& genome, const NeatSettings& settings, RandomStream& strea
     std::size_t link;
     Stages to;
   };
+  const std::vector<Stages> stages = possible_stages(settings);
   std::vector<Move> moves;
   for (std::size_t l = 0; l < genome.links.size(); ++l) {
-    for (const Stages& to : possible_stages(settings)) {
+    for (const Stages& to : stages) {
       if (to != genome.links[l].stages) moves.push_back({l, to});
     }
   }
-  while (!moves.empty()) {
+  while (!moves.empty()) {  // drawn again without those that are in another link's way
     const std::size_t drawn = draw_below(moves.size(), stream);
     LinkGene& link = genome.links[moves[drawn].link];
     const Stages before = std::exchange(link.stages, moves[drawn].to);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <limits>
 #include <optional>
 #include <string>
@@ -22,8 +23,7 @@ struct NodeGene {
 };
 
 /// The stages of life in which a gene is expressed, first to last, counted from 0; initially all.
-/// Two ends of life, and nothing between them is left out: what a hormone does that switches a gene
-/// on for good, one that switches it off for good, and one of each.
+/// An interval: a hormone may switch a gene on, and another one switch it off for good.
 struct Stages {
   static constexpr int end_of_life = std::numeric_limits<int>::max();
   int first = 0;
