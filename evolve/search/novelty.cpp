@@ -50,8 +50,8 @@ std::vector<double> levelling_factors(std::span<const double> variances) {
 }
 
 std::vector<double> novelty(std::span<const std::vector<double>> behaviours,
-                            std::span<const ArchiveEntry> archive, std::span<const double> factors,
-                            int neighbours, double alone, int threads) {
+                            std::span<const ArchiveEntry> archive, int neighbours, double alone,
+                            int threads, std::span<const double> factors) {
   std::vector<std::size_t> with_behaviour;
   for (std::size_t i = 0; i < behaviours.size(); ++i) {
     if (!behaviours[i].empty()) with_behaviour.push_back(i);
@@ -155,11 +155,12 @@ class Novelty : public Scorer {
       const Descriptor& descriptor = problem.descriptors[d];
       if (!is_compared(descriptor, settings_.behaviour)) continue;
       compared_.push_back(d);
-      const std::string& trial =
-          problem.objectives[static_cast<std::size_t>(descriptor.objective)].name;
-      auto known = std::find(trials_.begin(), trials_.end(), trial);
-      if (known == trials_.end()) known = trials_.insert(trials_.end(), trial);
-      groups_.push_back(static_cast<int>(known - trials_.begin()));
+      auto known = std::find(objectives_.begin(), objectives_.end(), descriptor.objective);
+      if (known == objectives_.end()) {
+        known = objectives_.insert(objectives_.end(), descriptor.objective);
+        trials_.push_back(problem.objectives[static_cast<std::size_t>(descriptor.objective)].name);
+      }
+      groups_.push_back(static_cast<int>(known - objectives_.begin()));
     }
   }
 
@@ -177,8 +178,8 @@ class Novelty : public Scorer {
     generation_ = population.generation;
     recorded_ = state_.archive.size();
     variances_ = group_variances(behaviours, groups_);
-    std::vector<double> scores = novelty(behaviours, state_.archive, factors(behaviours),
-                                         settings_.neighbours, state_.archive_threshold, threads_);
+    std::vector<double> scores = novelty(behaviours, state_.archive, settings_.neighbours,
+                                         state_.archive_threshold, threads_, factors(behaviours));
     update_archive(settings_, state_, behaviours, scores, ids, generation_);
     for (std::size_t i = 0; i < scores.size(); ++i) scores[i] *= evaluations[i].factor;
     return scores;
@@ -205,7 +206,7 @@ class Novelty : public Scorer {
     double sum = 0;
     for (const double variance : variances_) sum += variance;
     for (std::size_t g = 0; g < variances_.size(); ++g) {
-      rows[2].push_back({generation, static_cast<std::int64_t>(g), trials_[g],
+      rows[2].push_back({generation, std::int64_t{objectives_[g]}, trials_[g],
                          sum > 0 ? variances_[g] / sum : 0.0});
     }
     return rows;
@@ -252,7 +253,8 @@ class Novelty : public Scorer {
   int threads_;
   std::vector<std::size_t> compared_;  ///< descriptors of the problem that make a behaviour
   Groups groups_;                      ///< [compared_]
-  std::vector<std::string> trials_;    ///< [groups]
+  std::vector<int> objectives_;        ///< [groups] whose descriptors they are
+  std::vector<std::string> trials_;    ///< [groups] what these objectives are called
   NoveltyState state_;
   int generation_ = 0;
   std::size_t recorded_ = 0;       ///< entries of the archive before the generation scored last

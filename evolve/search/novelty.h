@@ -61,8 +61,8 @@ std::vector<double> levelling_factors(std::span<const double> variances);
 /// behaviour scores 0 and is nobody's neighbour. The only behaviour there is scores `alone`.
 /// Descriptor d counts `factors[d]` times its value; factors empty: all 1.
 std::vector<double> novelty(std::span<const std::vector<double>> behaviours,
-                            std::span<const ArchiveEntry> archive, std::span<const double> factors,
-                            int neighbours, double alone, int threads);
+                            std::span<const ArchiveEntry> archive, int neighbours, double alone,
+                            int threads, std::span<const double> factors = {});
 
 /// Adds what is newer than the threshold to the archive, in index order, and adapts the threshold:
 /// raised after more than settings.archive_many additions in a row, lowered after

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 #include "evolve/search/novelty.h"
@@ -107,7 +108,7 @@ SearchSetup setup_of(const std::string& kind, const std::vector<int>& stages, in
   setup.settings.kind = kind;
   setup.neat.population = 4;
   for (const int stage : stages) setup.problem.objectives.push_back({"o", stage});
-  setup.problem.descriptors = {"x", "y"};
+  setup.problem.descriptors = {{"o.x", 0, -9, 9}, {"o.y", 0, -9, 9}};
   setup.problem.generations = generations;
   setup.threads = 1;
   return setup;
@@ -236,32 +237,42 @@ TEST(Novelty, ScoresBeforeItArchivesAndAppliesTheFactorLast) {
   const std::int64_t first = search->ask().lineage[0].id;
   const Told told = search->tell(all);
   EXPECT_THAT(told.scores, ElementsAre(5, 0.1 * 0.5, 0, 0.5));
-  const std::size_t archive = 3, sizes = 4;
+  const std::size_t archive = 5, sizes = 6;
   ASSERT_EQ(search->tables()[archive].name, "archive");
   ASSERT_EQ(told.rows[archive].size(), 1u);
   EXPECT_EQ(told.rows[archive][0],
             (Row{std::int64_t{0}, first, std::int64_t{0}, 5.0, "[0.0,0.0]"}));
-  EXPECT_EQ(told.rows[sizes][0], (Row{std::int64_t{0}, std::int64_t{1}, std::int64_t{1}, 1.0}));
+  EXPECT_EQ(told.rows[sizes][0],
+            (Row{std::int64_t{0}, std::int64_t{1}, std::int64_t{1}, 1.0, std::int64_t{0}}));
   // Next time the archived one is a neighbour, of its own copy too.
   EXPECT_THAT(search->tell(all).scores, ElementsAre(0, 0.1 * 0.5, 0, 0.5));
 }
 
-// Runs update_archive on novelties alone.
+// Runs update_archive on novelties alone, of behaviours that all differ.
 class Archive {
  public:
+  explicit Archive(bool per_generation = false) {
+    settings.archive_per_generation = per_generation;
+    state.archive_threshold = 1;
+  }
   void generation(const std::vector<double>& novelties) {
     std::vector<std::vector<double>> behaviours;
     for (const double n : novelties) {
-      behaviours.push_back(n < 0 ? std::vector<double>{} : std::vector<double>{n, 0});
+      behaviours.push_back(n < 0 ? std::vector<double>{} : std::vector<double>{n, next_++});
     }
+    generation(novelties, behaviours);
+  }
+  void generation(const std::vector<double>& novelties,
+                  const std::vector<std::vector<double>>& behaviours) {
     const std::vector<std::int64_t> ids(novelties.size(), 0);
     update_archive(settings, state, behaviours, novelties, ids, ++count_);
   }
   NoveltySettings settings;
-  NoveltyState state{{}, 1, 0, 0};
+  NoveltyState state;
 
  private:
   int count_ = 0;
+  double next_ = 0;
 };
 
 TEST(ArchiveRules, TakesOnlyWhatIsAboveTheThreshold) {
@@ -301,6 +312,166 @@ TEST(ArchiveRules, WhoeverIsNotAddedEndsTheRow) {
     EXPECT_EQ(archive.state.archive.size(), 16u);
     EXPECT_EQ(archive.state.archive_threshold, 1);
     EXPECT_EQ(archive.state.added_in_a_row, 8);
+  }
+}
+
+TEST(ArchiveRules, PerGenerationARowIsWhatAGenerationAdds) {
+  Archive archive(true);
+  std::vector<double> novelties;
+  for (int i = 0; i < 8; ++i) novelties.insert(novelties.end(), {2, 0.5, -1});
+  archive.generation(novelties);  // eight, with others between
+  EXPECT_EQ(archive.state.archive_threshold, 1);
+  archive.generation({2});  // a row of its own
+  EXPECT_EQ(archive.state.archive_threshold, 1);
+  novelties.push_back(2);
+  archive.generation(novelties);  // nine
+  EXPECT_EQ(archive.state.archive_threshold, 1.1);
+}
+
+TEST(ArchiveRules, RefusesCopiesUnlessTold) {
+  for (const bool copies : {false, true}) {
+    Archive archive;
+    archive.settings.archive_copies = copies;
+    archive.generation({2, 2, 2, 2}, {{1, 2}, {3, 4}, {1, 2}, {1, 2.5}});
+    EXPECT_EQ(archive.state.archive.size(), copies ? 4u : 3u);
+    EXPECT_EQ(archive.state.copies, 1);
+    // A refused copy ends the row as whoever is not added does.
+    EXPECT_EQ(archive.state.added_in_a_row, copies ? 4 : 1);
+    archive.generation({2}, {{3, 4}});
+    EXPECT_EQ(archive.state.archive.size(), copies ? 5u : 3u);
+    EXPECT_EQ(archive.state.copies, 1);
+  }
+}
+
+TEST(BehaviourGroups, AreLevelledToTheSameVariance) {
+  const std::vector<std::vector<double>> behaviours = {{0, 0, 10}, {}, {2, 0, 30}, {4, 6, 20}};
+  const Groups groups = {0, 0, 1};
+  // Of 0, 2, 4 the variance is 8/3, of 0, 0, 6 it is 8, of 10, 30, 20 it is 200/3.
+  const std::vector<double> variances = group_variances(behaviours, groups);
+  ASSERT_EQ(variances.size(), 2u);
+  EXPECT_NEAR(variances[0], 8.0 / 3 + 8, 1e-14);
+  EXPECT_NEAR(variances[1], 200.0 / 3, 1e-13);
+  std::vector<std::vector<double>> levelled = behaviours;
+  const std::vector<double> factors = levelling_factors(variances);
+  for (auto& behaviour : levelled) {
+    for (std::size_t d = 0; d < behaviour.size(); ++d) {
+      behaviour[d] *= factors[static_cast<std::size_t>(groups[d])];
+    }
+  }
+  const std::vector<double> after = group_variances(levelled, groups);
+  EXPECT_NEAR(after[0], after[1], 1e-12);
+  EXPECT_NEAR(after[0] + after[1], variances[0] + variances[1], 1e-12);
+  EXPECT_THAT(levelling_factors(std::vector<double>{0, 0}), ElementsAre(1, 1));
+  EXPECT_THAT(group_variances(std::vector<std::vector<double>>{{}, {}}, groups), ElementsAre(0, 0));
+}
+
+// Two trials, the second a hundred times as wide: as they are, the first decides nothing.
+TEST(Novelty, ScaledBehaviourHearsEveryTrial) {
+  for (const bool scaled : {false, true}) {
+    SearchSetup setup = setup_of("novelty", {1, 2}, 100);
+    setup.problem.descriptors = {{"a.x", 0, -9, 9}, {"b.x", 1, -9, 9}};
+    setup.settings.values["neighbours"] = 1;
+    setup.settings.values["behaviour_scaled"] = scaled;
+    const auto search = make_search(setup);
+    const std::vector<Evaluation> four = {
+        {{0, 0}, {0, 0}, 1}, {{0, 0}, {0, 300}, 1}, {{0, 0}, {3, 100}, 1}, {{0, 0}, {0, 100}, 1}};
+    const std::vector<double> scores = search->tell(four).scores;
+    // Nearest to the third is the fourth: 3 apart in the narrow trial.
+    const double narrow = 27.0 / 16, wide = 11875;  // variances of 0, 0, 3, 0 and 0, 300, 100, 100
+    const double factor = scaled ? std::sqrt((narrow + wide) / 2 / narrow) : 1;
+    EXPECT_NEAR(scores[2], std::min(3 * factor, std::hypot(3 * factor, scaled ? 1e9 : 100)), 1e-9);
+  }
+}
+
+TEST(MakeSearch, RefusesWhatCannotBeASearch) {
+  const auto refusal = [](auto change) {
+    SearchSetup setup = setup_of("novelty", {1}, 10);
+    change(setup);
+    try {
+      make_search(setup);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string("made");
+  };
+  using ::testing::HasSubstr;
+  EXPECT_EQ(refusal([](SearchSetup&) {}), "made");
+  EXPECT_EQ(refusal([](SearchSetup& s) { s.neat.population = 0; }),
+            "neat.population: expected a number from 1 to 1000000");
+  EXPECT_EQ(refusal([](SearchSetup& s) { s.neat.hidden_nodes = -1; }),
+            "neat.hidden_nodes: expected a number from 0 to 10000");
+  EXPECT_EQ(refusal([](SearchSetup& s) { s.neat.severe = std::nan(""); }),
+            "neat.severe: expected a number from 0 to 1");
+  EXPECT_EQ(refusal([](SearchSetup& s) { s.settings.values["neighbours"] = 0; }),
+            "search.neighbours: expected a number from 1 to 1000000");
+  EXPECT_THAT(refusal([](SearchSetup& s) { s.settings.values["neighbours"] = 1.5; }),
+              HasSubstr("search.neighbours: expected a value of the type"));
+  EXPECT_EQ(refusal([](SearchSetup& s) { s.settings.values["neighbors"] = 1; }),
+            "search.neighbors: expected a setting of some search");
+  EXPECT_THAT(refusal([](SearchSetup& s) { s.settings.kind = "noveltie"; }),
+              HasSubstr("search.kind: expected one of simple, progressive, novelty"));
+  EXPECT_EQ(refusal([](SearchSetup& s) { s.shape.outputs.clear(); }),
+            "shape.outputs: expected one output or more, each once");
+  EXPECT_EQ(refusal([](SearchSetup& s) { s.shape.inputs.pop_back(); }),
+            "shape.inputs: expected inputs, each once, the bias among them");
+  EXPECT_THAT(refusal([](SearchSetup& s) { s.problem.objectives.clear(); }),
+              HasSubstr("problem.objectives: expected one at least"));
+  EXPECT_EQ(refusal([](SearchSetup& s) {
+              s.settings.values["behaviour"] = std::vector<std::string>{"o.x", "o.z"};
+            }),
+            "search.behaviour: expected none but o.x, o.y (\"o.z\" is unknown)");
+  // All at once, a line each.
+  EXPECT_EQ(refusal([](SearchSetup& s) {
+              s.neat.population = 0;
+              s.shape.outputs.clear();
+            }),
+            "neat.population: expected a number from 1 to 1000000\n"
+            "shape.outputs: expected one output or more, each once");
+}
+
+// Who is better than its parents, who is dead, and what became of species, from scores given by
+// hand.
+TEST(NeatTables, TellHowChildrenCameToBeAndWhatBecameOfThem) {
+  SearchSetup setup = setup_of("simple", {1}, 10);
+  setup.neat.population = 50;
+  const auto search = make_search(setup);
+  const std::size_t origins = 3, changes = 4;
+  ASSERT_EQ(search->tables()[origins].name, "origins");
+  ASSERT_EQ(search->tables()[changes].name, "species_changes");
+  std::set<std::int64_t> alive;
+  for (int g = 0; g < 10; ++g) {
+    // Everybody is as good as the generation is late, so that all but copies of dead ones are
+    // better than their parents; the last three are dead.
+    std::vector<Evaluation> all(50, evaluation({g + 1.0}));
+    for (std::size_t i = 47; i < 50; ++i) all[i].objectives[0] = 0;
+    const Told told = search->tell(all);
+    std::int64_t children = 0, better = 0, dead = 0;
+    for (const Row& row : told.rows[origins]) {
+      EXPECT_EQ(std::get<std::int64_t>(row[0]), g);
+      EXPECT_EQ(std::get<std::string>(row[1]) == "first", g == 0);
+      children += std::get<std::int64_t>(row[3]);
+      better += std::get<std::int64_t>(row[4]);
+      dead += std::get<std::int64_t>(row[5]);
+    }
+    EXPECT_EQ(children, 50);
+    EXPECT_EQ(better, g == 0 ? 0 : 47);
+    EXPECT_EQ(dead, 3);
+    const auto apply_changes = [&](int generation) {
+      for (const Row& row : told.rows[changes]) {
+        if (std::get<std::int64_t>(row[0]) != generation) continue;
+        const auto id = std::get<std::int64_t>(row[1]);
+        if (std::get<std::string>(row[2]) == "founded") {
+          EXPECT_TRUE(alive.insert(id).second);
+        } else {
+          EXPECT_EQ(alive.erase(id), 1u);
+        }
+      }
+    };
+    if (g == 0) apply_changes(0);
+    std::set<std::int64_t> members;
+    for (const Row& row : told.rows[2]) members.insert(std::get<std::int64_t>(row[1]));
+    EXPECT_EQ(alive, members);
+    apply_changes(g + 1);
   }
 }
 
