@@ -8,6 +8,8 @@
 namespace metamorph::core {
 namespace {
 
+constexpr double least_prominence = 0.4;  ///< radii of a disc of the same area
+
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 struct Direction {
@@ -109,7 +111,7 @@ int count_limbs(const Body& body, const Area& area, std::span<const std::array<I
     distance.push_back(nearest(from, from, centre));
     distance.push_back(nearest(from, to, centre));
   }
-  return count_peaks(distance, 0.5 * std::sqrt(area.size / std::numbers::pi));
+  return count_peaks(distance, least_prominence * std::sqrt(area.size / std::numbers::pi));
 }
 
 }  // namespace metamorph::core

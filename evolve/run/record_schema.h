@@ -4,7 +4,7 @@
 
 namespace metamorph::evolve {
 
-inline constexpr const char* record_format = "metamorph-run/2";
+inline constexpr const char* record_format = "metamorph-run/3";
 inline constexpr const char* record_file = "run.db";
 
 /// The tables of run.db. What depends on wall-clock, machine or interruptions stands in `sessions`,
@@ -41,6 +41,11 @@ CREATE TABLE individuals (generation INTEGER, position INTEGER, id INTEGER NOT N
 -- follows it are of one of them.
 CREATE TABLE outcomes (generation INTEGER, position INTEGER, trial INTEGER, cells INTEGER NOT NULL,
   created INTEGER NOT NULL, died INTEGER NOT NULL, OUTCOME_COLUMNS,
+  PRIMARY KEY (generation, position, trial)) WITHOUT ROWID;
+-- What describes an individual in every trial in which it had a body (metamorph/descriptors.h); NULL
+-- is what describes motion where it failed, and metamorphosis where no body came before. Of several
+-- starts as in outcomes.
+CREATE TABLE descriptors (generation INTEGER, position INTEGER, trial INTEGER, DESCRIPTOR_COLUMNS,
   PRIMARY KEY (generation, position, trial)) WITHOUT ROWID;
 -- The best by eq 6 of every generation. genome: metamorph-genome/1.
 CREATE TABLE champions (generation INTEGER PRIMARY KEY, position INTEGER NOT NULL,

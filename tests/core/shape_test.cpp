@@ -125,7 +125,8 @@ TEST(Shape, OfAnL) {
   EXPECT_NEAR(shape.elongation, 1 - std::sqrt(across / along), rounding);
   EXPECT_NEAR(shape.compactness, 4 * pi * 9 / (20 * 20), rounding);
   EXPECT_EQ(shape.symmetry, 1);  // of all axes only the diagonal through the corner
-  EXPECT_EQ(shape.limbs, 2);     // the corner is too blunt to be a third
+  // The corner rises from 1.61 to 2.28, by 0.39 of the disc's radius: too blunt to be a third.
+  EXPECT_EQ(shape.limbs, 2);
 }
 
 TEST(Shape, OfAHexagonAndDiscs) {
