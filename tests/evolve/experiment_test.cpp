@@ -352,7 +352,7 @@ TEST(Experiment, EveryFaultGetsItsLine) {
       {g + "[scenes.water]\nstep = 1\nrun_steps = 4\nramp_steps = 1\n",
        "x.toml:11: scenes.water.step = 1: expected at most scenes.water.run_steps * 0.2 = 0.8"},
       {g + "[neat]\nspecies_max = 3\n",
-       "x.toml: neat.species_min = 5: expected at most neat.species_max = 3"},
+       "x.toml: neat.species_min = 15: expected at most neat.species_max = 3"},
       {g + "[neat]\nmutate_weights = 0\n",
        "x.toml:11: neat.mutate_weights = 0: expected more than 0: the other mutations can all "
        "fail"},

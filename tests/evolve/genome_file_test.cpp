@@ -88,7 +88,7 @@ TEST(GenomeFile, NamesEveryFaultOfFormAndRange) {
   const std::string nodes = "expected an array of {\"id\", \"kind\"}";
   const std::string links = "expected an array of {\"innovation\", \"from\", \"to\", \"weight\"}";
   const std::string integer = "expected an integer from 0 to 2147483647";
-  const std::string node = "expected an integer from -1 to 2147483647";
+  const std::string node = "expected an integer from -3000 to 2147483647";
   const std::string kinds = "expected \"input\", \"output\" or \"hidden\"";
   const std::string weight = "expected a number from -1000 to 1000";
   const std::vector<std::pair<Json, std::string>> table = {
@@ -99,9 +99,9 @@ TEST(GenomeFile, NamesEveryFaultOfFormAndRange) {
       {without("", "nodes"), "nodes: missing: " + nodes},
       {with("/nodes", 3), "nodes: 3: " + nodes},
       {with("/nodes/2", 5), "nodes[2]: 5: expected {\"id\", \"kind\"}"},
-      {without("/nodes/2", "id"), "nodes[2].id: missing: expected an integer >= -1"},
+      {without("/nodes/2", "id"), "nodes[2].id: missing: expected an integer >= -3000"},
       {with("/nodes/2/id", "two"), "nodes[2].id: \"two\": " + node},
-      {with("/nodes/2/id", -2), "nodes[2].id: -2: " + node},
+      {with("/nodes/2/id", -3001), "nodes[2].id: -3001: " + node},
       {with("/nodes/2/id", 2.5), "nodes[2].id: 2.5: " + node},
       {with("/nodes/2/id", 4294967296), "nodes[2].id: 4294967296: " + node},
       {without("/nodes/2", "kind"), "nodes[2].kind: missing: " + kinds},
@@ -113,8 +113,8 @@ TEST(GenomeFile, NamesEveryFaultOfFormAndRange) {
       {with("/links/1", Json::array()),
        "links[1]: []: expected {\"innovation\", \"from\", \"to\", \"weight\"}"},
       {without("/links/1", "innovation"), "links[1].innovation: missing: expected an integer >= 0"},
-      {without("/links/1", "from"), "links[1].from: missing: expected an integer >= -1"},
-      {without("/links/1", "to"), "links[1].to: missing: expected an integer >= -1"},
+      {without("/links/1", "from"), "links[1].from: missing: expected an integer >= -3000"},
+      {without("/links/1", "to"), "links[1].to: missing: expected an integer >= -3000"},
       {without("/links/1", "weight"), "links[1].weight: missing: expected a number"},
       {with("/links/1/innovation", -4), "links[1].innovation: -4: " + integer},
       {with("/links/1/from", "bias"), "links[1].from: \"bias\": " + node},

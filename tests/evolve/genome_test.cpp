@@ -268,7 +268,8 @@ TEST(CheckGenome, NamesEveryFault) {
   genome.nodes[0] = {-100, NodeKind::input};
   only_fault(genome,
              "node -100: input with this id is unknown: expected inputs 0-5, -1 "
-             "(neighbours), outputs 6-12, hidden from 13 on");
+             "(neighbours), outputs 6-12, free inputs -1001 to -2000, free outputs -2001 to -3000, "
+             "hidden from 13 on");
   genome = hand_made({}, {});
   genome.nodes.resize(6);
   only_fault(genome, "nodes: no output among them: expected one");

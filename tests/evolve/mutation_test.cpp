@@ -72,12 +72,11 @@ TEST(Mutation, ThousandsInARowKeepEveryInvariant) {
 }
 
 TEST(Mutation, RouletteFollowsTheRates) {
-  const NeatSettings settings;
+  const NeatSettings settings = paper_neat_settings();
   evolve::RandomStream stream = test_stream(2);
   const Genome seed = seed_genome(settings, stream);
   const int trials = 40000;
   std::map<MutationKind, int> count;
-  int severe = 0;
   for (int i = 0; i < trials; ++i) {
     Genome genome = seed;
     StructuralChange change;
@@ -88,20 +87,76 @@ TEST(Mutation, RouletteFollowsTheRates) {
     ASSERT_EQ(change.kind, structural ? kind : MutationKind::none);
     ASSERT_EQ(genome.links.size(), seed.links.size() - (kind == MutationKind::remove_link));
     ASSERT_EQ(genome == seed, structural);
-    if (kind != MutationKind::weights) continue;
+    const bool redraw = kind == MutationKind::redraw;
+    if (!redraw && kind != MutationKind::weights) continue;
     // A small change moves no weight by 1 or more; of 111 redrawn weights some always do.
     bool far = false;
     for (std::size_t l = 0; l < seed.links.size(); ++l) {
       far |= std::abs(genome.links[l].weight - seed.links[l].weight) >= settings.weight_change;
     }
-    severe += far;
+    ASSERT_EQ(far, redraw);
   }
   const double total = 0.75 + 0.07 + 0.01 + 0.01;
-  expect_frequency(count[MutationKind::weights], trials, 0.75 / total);
+  const int weights = count[MutationKind::weights] + count[MutationKind::redraw];
+  expect_frequency(weights, trials, 0.75 / total);
+  expect_frequency(count[MutationKind::redraw], weights, settings.severe);
   expect_frequency(count[MutationKind::add_link], trials, 0.07 / total);
   expect_frequency(count[MutationKind::add_node], trials, 0.01 / total);
   expect_frequency(count[MutationKind::remove_link], trials, 0.01 / total);
-  expect_frequency(severe, count[MutationKind::weights], settings.severe);
+}
+
+// How many of 111 links a mutation changes. A share s is log-uniform on [1/111, 1], so the mean of
+// s is (1 - 1/111) / ln 111; the logarithm that is linear between powers of two is off by 6 % at
+// most.
+TEST(Mutation, MovesALogUniformShareOfTheLinks) {
+  NeatSettings settings;
+  settings.add_link = settings.add_node = settings.remove_link = 0;
+  for (const bool redraw : {false, true}) {
+    settings.severe = redraw ? 1 : 0;
+    settings.redrawn_share = 0;
+    evolve::RandomStream stream = test_stream(21);
+    const Genome seed = seed_genome(settings, stream);
+    const double links = static_cast<double>(seed.links.size());
+    const int trials = 20000;
+    double changed = 0;
+    int one = 0, half = 0;
+    for (int i = 0; i < trials; ++i) {
+      Genome genome = seed;
+      StructuralChange change;
+      ASSERT_EQ(mutate(genome, change, settings, stream),
+                redraw ? MutationKind::redraw : MutationKind::weights);
+      int count = 0;
+      for (std::size_t l = 0; l < seed.links.size(); ++l) {
+        count += genome.links[l].weight != seed.links[l].weight;
+      }
+      ASSERT_GE(count, 1);
+      changed += count;
+      one += count == 1;
+      half += count > links / 2;
+    }
+    const double octaves = std::log(links);
+    EXPECT_NEAR(changed / trials / links, (1 - 1 / links) / octaves, 0.06 * 1 / octaves + 0.01);
+    // More than half move with probability about ln 2 / ln 111, and single ones are common: where
+    // s = e^t / 111, one link or none moves with probability (1 + e^t) exp(-e^t) and more, and the
+    // integral of that over t from 0 to ln 111 is about 0.58.
+    EXPECT_NEAR(half / static_cast<double>(trials), std::log(2.0) / octaves, 0.03);
+    EXPECT_NEAR(one / static_cast<double>(trials), 0.58 / octaves, 0.03);
+  }
+}
+
+TEST(Mutation, ALeastShareOfOneMovesAllLinks) {
+  const NeatSettings settings = paper_neat_settings();
+  evolve::RandomStream stream = test_stream(22);
+  const Genome seed = seed_genome(settings, stream);
+  for (int i = 0; i < 200; ++i) {
+    Genome genome = seed;
+    StructuralChange change;
+    const MutationKind kind = mutate(genome, change, settings, stream);
+    if (kind != MutationKind::weights && kind != MutationKind::redraw) continue;
+    for (std::size_t l = 0; l < seed.links.size(); ++l) {
+      EXPECT_NE(genome.links[l].weight, seed.links[l].weight);
+    }
+  }
 }
 
 TEST(Mutation, AnImpossibleKindIsDrawnAgain) {
@@ -116,8 +171,9 @@ TEST(Mutation, AnImpossibleKindIsDrawnAgain) {
     StructuralChange change;
     ++count[mutate(genome, change, settings, stream)];
   }
-  EXPECT_EQ(count.size(), 2u);
-  expect_frequency(count[MutationKind::weights], trials, 0.75 / 0.82);
+  EXPECT_EQ(count.size(), 3u);
+  const int weights = count[MutationKind::weights] + count[MutationKind::redraw];
+  expect_frequency(weights, trials, 0.75 / 0.82);
   expect_frequency(count[MutationKind::add_link], trials, 0.07 / 0.82);
 }
 
@@ -218,9 +274,30 @@ TEST(AddNode, SplitsALinkThatIsNotTheBias) {
     ASSERT_EQ(mutate(child, change, splitting, stream), MutationKind::add_node);
     int next_innovation = 10, next_node = 20;
     Innovations(next_innovation, next_node).apply(change, settings, child);
-    EXPECT_EQ(child, hand_made({20}, {{0, bias_input, 6, 3}, {10, 2, 20, 1}, {11, 20, 7, -4}}));
+    EXPECT_EQ(child, hand_made({20}, {{0, bias_input, 6, 3}, {10, 2, 20, 2}, {11, 20, 7, -4}}));
     EXPECT_EQ(next_innovation, 12);
     EXPECT_EQ(next_node, 21);
+  }
+}
+
+// A node split into a link with incoming weight 2 passes small signals on: tanh(2 x / 2) = x - x^3
+// / 3 and less; with 1 it halves them.
+TEST(AddNode, KeepsSmallSignals) {
+  for (const double weight : {1.0, 2.0}) {
+    NeatSettings settings;
+    settings.mutate_weights = settings.add_link = settings.remove_link = 0;
+    settings.node_weight = weight;
+    const Genome parent = hand_made({}, {{0, 2, 7, 0.5}});
+    evolve::RandomStream stream = test_stream(8);
+    Genome child = parent;
+    StructuralChange change;
+    ASSERT_EQ(mutate(child, change, settings, stream), MutationKind::add_node);
+    int next_innovation = 10, next_node = 20;
+    Innovations(next_innovation, next_node).apply(change, settings, child);
+    const double x = 0.01;
+    const double before = std::tanh(0.5 * x / 2);
+    const double after = std::tanh(0.5 * std::tanh(child.links.front().weight * x / 2) / 2);
+    EXPECT_NEAR(after, weight / 2 * before, x * x * x);
   }
 }
 

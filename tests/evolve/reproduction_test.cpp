@@ -170,12 +170,31 @@ TEST(Records, StagnationCountsGenerationsWithoutANewBest) {
 }
 
 TEST(Threshold, FollowsTheNumberOfSpecies) {
-  const NeatSettings settings;
+  const NeatSettings settings = paper_neat_settings();
   EXPECT_EQ(adapted_threshold(5, 4, settings), 4.8);
   EXPECT_EQ(adapted_threshold(5, 5, settings), 5);
   EXPECT_EQ(adapted_threshold(5, 30, settings), 5);
   EXPECT_EQ(adapted_threshold(5, 31, settings), 5.2);
   EXPECT_EQ(adapted_threshold(0.3, 1, settings), 0.2);
+}
+
+TEST(Threshold, SteersToANumberWhereBothAreTheSame) {
+  NeatSettings settings;
+  settings.species_min = settings.species_max = 12;
+  EXPECT_EQ(adapted_threshold(5, 11, settings), 4.8);
+  EXPECT_EQ(adapted_threshold(5, 12, settings), 5);
+  EXPECT_EQ(adapted_threshold(5, 13, settings), 5.2);
+}
+
+TEST(Threshold, AsksForNoMoreSpeciesThanThePopulationHasRoomFor) {
+  NeatSettings settings;
+  settings.population = 20;
+  settings.species_members = 5;
+  EXPECT_EQ(adapted_threshold(5, 4, settings), 5);
+  EXPECT_EQ(adapted_threshold(5, 5, settings), 5.2);
+  EXPECT_EQ(adapted_threshold(5, 3, settings), 4.8);
+  settings.population = 3;  // one at least
+  EXPECT_EQ(adapted_threshold(5, 1, settings), 5);
 }
 
 }  // namespace
