@@ -290,7 +290,7 @@ TEST(Experiment, EveryFaultGetsItsLine) {
        "x.toml:11: neat.crossover = true: expected a number from 0 to 1"},
       {g + "[search]\nkind = \"newness\"\n",
        "x.toml:11: search.kind = \"newness\": expected one of \"simple\", \"progressive\", "
-       "\"novelty\""},
+       "\"novelty\", \"map-elites\", \"nslc\", \"dns\", \"nsga2\""},
       {g + "[scenes.water]\ndrag = 1\n",
        "x.toml:11: scenes.water.drag = 1: expected true or false"},
       {g + "[scenes.slope]\nfriction = 1\n",
