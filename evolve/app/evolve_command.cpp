@@ -75,6 +75,10 @@ std::filesystem::path default_directory(const Experiment& experiment) {
 std::unique_ptr<Record> open_record(const Arguments& given) {
   if (given.resume.empty()) {
     const Experiment experiment = read_experiment(given.experiment, overrides_of(given));
+    const SearchSetup setup = search_setup_of(experiment, given.threads);
+    if (const auto notes = search_kind(experiment.search.kind).notes; notes != nullptr) {
+      for (const std::string& note : notes(setup)) fmt::print(stderr, "note: {}\n", note);
+    }
     return std::make_unique<Record>(
         given.out.empty() ? default_directory(experiment) : std::filesystem::path(given.out),
         experiment, given.threads);

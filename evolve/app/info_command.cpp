@@ -13,6 +13,52 @@
 namespace metamorph::evolve {
 namespace {
 
+void add_health(nlohmann::ordered_json& json, const SearchHealth& health) {
+  if (health.species) {
+    json["species"] = {{"now", *health.species}, {"founded", health.founded}};
+    for (const auto& [why, count] : health.ended) json["species"]["ended"][why] = count;
+  }
+  for (const auto& [origin, children, better, dead] : health.origins) {
+    json["origins"][origin] = {{"children", children}, {"better", better}, {"dead", dead}};
+  }
+  if (const auto& archive = health.archive) {
+    json["archive"] = {
+        {"size", archive->size}, {"threshold", archive->threshold}, {"copies", archive->copies}};
+  }
+  for (const auto& [trial, share] : health.behaviour) json["behaviour_shares"][trial] = share;
+}
+
+void print_health(const SearchHealth& health) {
+  if (health.species) {
+    fmt::print("species      {} now, {} founded", *health.species, health.founded);
+    for (const auto& [why, count] : health.ended) fmt::print(", {} {}", count, why);
+    fmt::print("\n");
+  }
+  if (!health.origins.empty()) {
+    fmt::print("children     of the last {} generations, better than both parents / dead:\n",
+               SearchHealth::recent);
+  }
+  for (const auto& [origin, children, better, dead] : health.origins) {
+    const auto percent = [all = children](std::int64_t part) {
+      return 100.0 * static_cast<double>(part) / static_cast<double>(all);
+    };
+    fmt::print("  {:<11}{:>6}  {:4.1f} % / {:4.1f} %\n", origin, children, percent(better),
+               percent(dead));
+  }
+  if (const auto& archive = health.archive) {
+    fmt::print("archive      {} behaviours, threshold {:.3g} d, {} copies met\n", archive->size,
+               archive->threshold, archive->copies);
+  }
+  if (!health.behaviour.empty()) {
+    fmt::print("behaviour    variance");
+    for (std::size_t t = 0; t < health.behaviour.size(); ++t) {
+      fmt::print("{} {} {:.0f} %", t == 0 ? "" : ",", health.behaviour[t].first,
+                 100 * health.behaviour[t].second);
+    }
+    fmt::print("\n");
+  }
+}
+
 void print_json(const RunReader& run, const Experiment& experiment) {
   nlohmann::ordered_json json;
   json["run"] = run.file().string();
@@ -41,6 +87,7 @@ void print_json(const RunReader& run, const Experiment& experiment) {
                   {"developed", work.developed},
                   {"bodies", work.bodies},
                   {"simulated", work.simulated}};
+  add_health(json, run.health());
   for (const auto& [key, value] : run.last_session()) json["session"][key] = value;
   fmt::print("{}\n", json.dump());
 }
@@ -91,6 +138,7 @@ void print_text(const RunReader& run, const Experiment& experiment) {
       fmt::print(", {} {:.1f} %", phase, 100 * seconds / total);
     }
     fmt::print("\n");
+    print_health(run.health());
   }
   for (const auto& [key, value] : run.last_session()) fmt::print("{:<12} {}\n", key, value);
 }

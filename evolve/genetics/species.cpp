@@ -39,12 +39,17 @@ void record_best(std::vector<Species>& species, const std::vector<std::vector<in
   }
 }
 
-double adapted_threshold(double threshold, int species, const NeatSettings& settings) {
+SpeciesRange species_range(const NeatSettings& settings) {
   const int most = settings.species_members == 0
                        ? settings.population
                        : std::max(1, settings.population / settings.species_members);
-  if (species < std::min(settings.species_min, most)) threshold -= settings.compatibility_step;
-  if (species > std::min(settings.species_max, most)) threshold += settings.compatibility_step;
+  return {std::min(settings.species_min, most), std::min(settings.species_max, most)};
+}
+
+double adapted_threshold(double threshold, int species, const NeatSettings& settings) {
+  const auto [min, max] = species_range(settings);
+  if (species < min) threshold -= settings.compatibility_step;
+  if (species > max) threshold += settings.compatibility_step;
   return std::max(threshold, settings.compatibility_floor);
 }
 

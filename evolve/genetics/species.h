@@ -15,10 +15,15 @@ std::vector<std::vector<int>> ranked_members(const PopulationState& state,
 void record_best(std::vector<Species>& species, const std::vector<std::vector<int>>& ranked,
                  std::span<const double> fitness, bool restart_records);
 
-/// Lowers the threshold by one step below settings.species_min species, raises it above
-/// settings.species_max; never below the floor. Both are at most population / species_members, but
-/// 1 at least: where every species keeps a copy of its champion, many small ones leave no seats for
-/// children.
+/// The numbers of species between which the threshold stays: settings.species_min and species_max,
+/// bounded by population / species_members, but 1 at least. Where every species keeps a copy of its
+/// champion, many small ones leave no seats for children.
+struct SpeciesRange {
+  int min, max;
+};
+SpeciesRange species_range(const NeatSettings& settings);
+
+/// Lowers the threshold by one step below that range, raises it above; never below the floor.
 double adapted_threshold(double threshold, int species, const NeatSettings& settings);
 
 /// Puts every genome into the first species whose representative is nearer than the threshold; one

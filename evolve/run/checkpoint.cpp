@@ -13,7 +13,7 @@
 namespace metamorph::evolve {
 namespace {
 
-constexpr std::string_view mark = "metachk2";
+constexpr std::string_view mark = "metachk3";
 constexpr std::size_t checksum_size = 8;
 
 /// FNV-1a, most significant byte first: tells damage, not malice.

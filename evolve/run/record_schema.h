@@ -4,7 +4,7 @@
 
 namespace metamorph::evolve {
 
-inline constexpr const char* record_format = "metamorph-run/2";
+inline constexpr const char* record_format = "metamorph-run/3";
 inline constexpr const char* record_file = "run.db";
 
 /// The tables of run.db. What depends on wall-clock, machine or interruptions stands in `sessions`,

@@ -127,6 +127,8 @@ EvaluationWork RunReader::work() const {
   return {sum.integer(0), sum.integer(1), sum.integer(2), sum.integer(3)};
 }
 
+SearchHealth RunReader::health() const { return search_health(*database_); }
+
 std::vector<std::string> RunReader::tables() const {
   Statement select(*database_,
                    "SELECT name FROM sqlite_master WHERE type IN ('table', 'view') AND name != "

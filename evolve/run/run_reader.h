@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "evolve/experiment/experiment.h"
+#include "evolve/run/search_health.h"
 #include "metamorph/evaluator.h"
 #include "metamorph/genome.h"
 
@@ -44,6 +45,7 @@ class RunReader {
   std::vector<std::pair<std::string, std::string>> last_session() const;  ///< key, value
   /// Of all generations.
   EvaluationWork work() const;
+  SearchHealth health() const;
 
   std::vector<std::string> tables() const;  ///< tables and views
   /// A table as CSV: a header line, then the rows in order of their key; numbers read back to the

@@ -1,5 +1,7 @@
 #include "evolve/search/neat_search.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -8,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "evolve/genetics/species.h"
 #include "evolve/search/population_json.h"
 #include "metamorph/threads.h"
 
@@ -19,6 +22,16 @@ constexpr std::size_t origins_table = 3, changes_table = 4, own_tables = 5;
 }  // namespace
 
 nlohmann::json Scorer::save() const { return nullptr; }
+
+std::vector<std::string> neat_notes(const SearchSetup& setup) {
+  const NeatSettings& neat = setup.neat;
+  const int room = species_range(neat).max;
+  if (room == neat.species_max) return {};
+  return {fmt::format(
+      "neat.population = {} has room for {} species of neat.species_members = {}: steering to no "
+      "more, though neat.species_max = {}",
+      neat.population, room, neat.species_members, neat.species_max)};
+}
 
 NeatSearch::NeatSearch(const SearchSetup& setup, std::unique_ptr<Scorer> scorer)
     : settings_(setup.neat),

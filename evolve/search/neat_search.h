@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "evolve/genetics/population.h"
@@ -9,6 +10,9 @@
 #include "metamorph/searches.h"
 
 namespace metamorph::evolve {
+
+/// For SearchKind::notes: a population that is too small for its species.
+std::vector<std::string> neat_notes(const SearchSetup& setup);
 
 /// NEAT: a population in species, bred by the scores that a scorer gives.
 class NeatSearch : public Search {

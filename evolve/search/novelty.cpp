@@ -325,7 +325,8 @@ SearchKind novelty_search() {
        {"records_restart", d.records_restart, 0, 0,
         "species do not age: novelty falls as the archive fills", false}},
       make,
-      contradictions};
+      contradictions,
+      neat_notes};
 }
 
 }  // namespace metamorph::evolve

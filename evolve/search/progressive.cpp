@@ -123,8 +123,8 @@ std::vector<Contradiction> contradictions(const SearchSetup& setup) {
 }  // namespace
 
 SearchKind progressive_search() {
-  return {
-      "progressive", "first the larva, then stage after stage (eq 7)", {}, make, contradictions};
+  return {"progressive", "first the larva, then stage after stage (eq 7)", {}, make, contradictions,
+          neat_notes};
 }
 
 }  // namespace metamorph::evolve

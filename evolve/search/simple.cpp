@@ -22,7 +22,8 @@ std::unique_ptr<Search> make(const SearchSetup& setup) {
 }  // namespace
 
 SearchKind simple_search() {
-  return {"simple", "the geometric mean of the distances of all trials (eq 6)", {}, make};
+  return {"simple",  "the geometric mean of the distances of all trials (eq 6)", {}, make, nullptr,
+          neat_notes};
 }
 
 }  // namespace metamorph::evolve

@@ -241,6 +241,16 @@ TEST_F(ProgramTest, DevelopmentsThatBecomeNoNumbersAreCountedAsSuch) {
   EXPECT_THAT(ended.output, HasSubstr(std::to_string(counts.at("bad_development")) + " failed"));
 }
 
+TEST_F(ProgramTest, ASmallPopulationIsToldOfItsSpecies) {
+  const Ended small = run({"evolve", experiment("simple"), "--out", path("small"), "--generations",
+                           "1", "--population", "12"});
+  EXPECT_EQ(small.exit_code, 0);
+  EXPECT_THAT(small.output, HasSubstr("note: neat.population = 12 has room for 2 species"));
+  const Ended large = run({"evolve", experiment("simple"), "--out", path("large"), "--generations",
+                           "1", "--population", "75"});
+  EXPECT_THAT(large.output, ::testing::Not(HasSubstr("note:")));
+}
+
 TEST_F(ProgramTest, InfoAndExportTellWhatWasRecorded) {
   ASSERT_EQ(run({"evolve", experiment("simple"), "--out", path("a"), "--seed", "5", "--generations",
                  "3", "--threads", "1"})
@@ -255,6 +265,36 @@ TEST_F(ProgramTest, InfoAndExportTellWhatWasRecorded) {
   EXPECT_EQ(json.at("best").at("eq6"), reader.best().eq6);
   EXPECT_EQ(json.at("best").at("trials").at(1).at("distance"), reader.best().distances[1]);
   EXPECT_THAT(run({"info", path("a")}).output, HasSubstr("generations  3 of 3"));
+
+  // The health of the search, from its tables: every child has an origin, whoever was founded lives
+  // or has ended.
+  std::int64_t children = 0;
+  for (const auto& [origin, count] : json.at("origins").items()) {
+    children += count.at("children").get<std::int64_t>();
+    EXPECT_LE(count.at("better").get<int>() + count.at("dead").get<int>(), count.at("children"));
+  }
+  EXPECT_EQ(children, 3 * json.at("population").get<std::int64_t>());
+  std::int64_t ended = 0;
+  if (json.at("species").contains("ended")) {
+    for (const auto& [why, count] : json.at("species").at("ended").items()) {
+      ended += count.get<std::int64_t>();
+    }
+  }
+  EXPECT_GE(json.at("species").at("founded").get<std::int64_t>() - ended, 1);
+  EXPECT_FALSE(json.contains("archive"));
+  EXPECT_THAT(run({"info", path("a")}).output, HasSubstr("children     of the last 10"));
+
+  ASSERT_EQ(
+      run({"evolve", experiment("novelty"), "--out", path("n"), "--generations", "2"}).exit_code,
+      0);
+  const auto novel = nlohmann::json::parse(run({"info", path("n"), "--json"}).output);
+  EXPECT_GE(novel.at("archive").at("size"), 0);
+  double shares = 0;
+  for (const auto& [trial, share] : novel.at("behaviour_shares").items()) {
+    shares += share.get<double>();
+  }
+  EXPECT_NEAR(shares, 1, 1e-12);
+  EXPECT_THAT(run({"info", path("n")}).output, HasSubstr("behaviour    variance larva "));
 
   const Ended exported = run({"export", path("a"), "--champion", "2", "--out", path("g.json")});
   EXPECT_EQ(exported.exit_code, 0) << exported.output;

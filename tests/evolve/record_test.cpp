@@ -299,7 +299,7 @@ TEST(Record, MissingForeignAndDamagedFilesGetOneLine) {
   EXPECT_THAT(read(), ElementsAre(HasSubstr("run.db: ")));
   std::ofstream(path / "run.db").close();  // empty
   EXPECT_THAT(resume(), ElementsAre(HasSubstr("holds no experiment")));
-  EXPECT_THAT(read(), ElementsAre(HasSubstr("expected \"metamorph-run/2\"")));
+  EXPECT_THAT(read(), ElementsAre(HasSubstr("expected \"metamorph-run/3\"")));
 }
 
 TEST(Record, EveryTruncatedFileGetsOneLine) {
@@ -335,7 +335,7 @@ TEST(Record, DamagedCheckpointsGetOneLine) {
               ElementsAre(HasSubstr("checkpoint is")));
   EXPECT_THAT(damaged("DELETE FROM checkpoint"), ElementsAre(HasSubstr("checkpoint is missing")));
   EXPECT_THAT(damaged("UPDATE run SET value = 'x' WHERE key = 'format'"),
-              ElementsAre(HasSubstr("format = \"x\": expected \"metamorph-run/2\"")));
+              ElementsAre(HasSubstr("format = \"x\": expected \"metamorph-run/3\"")));
 }
 
 TEST(Record, TablesAreWrittenAsCsv) {

@@ -68,6 +68,8 @@ struct SearchKind {
   std::vector<Setting> settings;  ///< of the same name in two kinds: the same in both
   std::unique_ptr<Search> (*make)(const SearchSetup& setup);
   std::vector<Contradiction> (*contradictions)(const SearchSetup& setup) = nullptr;  ///< may be 0
+  /// What a person should know of a setup that works, but not as it says, one line each; may be 0.
+  std::vector<std::string> (*notes)(const SearchSetup& setup) = nullptr;
 };
 
 /// All kinds.

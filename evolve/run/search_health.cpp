@@ -1,0 +1,59 @@
+#include "evolve/run/search_health.h"
+
+#include <string_view>
+
+#include "evolve/run/sqlite.h"
+
+namespace metamorph::evolve {
+namespace {
+
+bool has(Database& record, std::string_view table) {
+  Statement known(record, "SELECT count(*) FROM sqlite_master WHERE name = ?");
+  known.bind(table).step();
+  return known.integer(0) > 0;
+}
+
+}  // namespace
+
+SearchHealth search_health(Database& record) {
+  SearchHealth health;
+  if (has(record, "populations")) {
+    Statement last(record, "SELECT species FROM populations ORDER BY generation DESC LIMIT 1");
+    if (last.step()) health.species = last.integer(0);
+  }
+  if (has(record, "species_changes")) {
+    Statement count(record, "SELECT change, count(*) FROM species_changes GROUP BY change");
+    while (count.step()) {
+      if (count.text(0) == "founded") {
+        health.founded = count.integer(1);
+      } else {
+        health.ended.emplace_back(count.text(0), count.integer(1));
+      }
+    }
+  }
+  if (has(record, "origins")) {
+    Statement sum(record,
+                  "SELECT origin, sum(children), sum(better), sum(dead) FROM origins WHERE "
+                  "generation > (SELECT max(generation) FROM origins) - ? GROUP BY origin "
+                  "ORDER BY 2 DESC");
+    sum.bind(SearchHealth::recent);
+    while (sum.step()) {
+      health.origins.push_back({sum.text(0), sum.integer(1), sum.integer(2), sum.integer(3)});
+    }
+  }
+  if (has(record, "archive_sizes")) {
+    Statement last(record,
+                   "SELECT archive_size, archive_threshold, (SELECT sum(archive_copies) FROM "
+                   "archive_sizes) FROM archive_sizes ORDER BY generation DESC LIMIT 1");
+    if (last.step()) health.archive = {last.integer(0), last.integer(2), last.real(1)};
+  }
+  if (has(record, "behaviour_shares")) {
+    Statement last(record,
+                   "SELECT trial, share FROM behaviour_shares WHERE generation = (SELECT "
+                   "max(generation) FROM behaviour_shares) ORDER BY objective");
+    while (last.step()) health.behaviour.emplace_back(last.text(0), last.real(1));
+  }
+  return health;
+}
+
+}  // namespace metamorph::evolve
