@@ -48,7 +48,7 @@ class MapElites : public Search {
         brood_(first_brood(setup)) {}
 
   Asked ask() const override { return asked_of(brood_, problem_); }
-  int generation() const override { return brood_.generation; }
+  int generation() const override { return brood_.state.generation; }
 
   /// Scores: the quality of whoever is in the map afterwards, 0 of all others.
   Told tell(std::span<const Evaluation> evaluations) override {
@@ -61,7 +61,7 @@ class MapElites : public Search {
       if (!niche) continue;
       const auto held = elites_.find(*niche);
       if (held != elites_.end() && qualities[i] <= held->second.quality) continue;
-      elites_[*niche] = {brood_.individuals[i].id, qualities[i], brood_.genomes[i]};
+      elites_[*niche] = {brood_.state.individuals[i].id, qualities[i], brood_.state.genomes[i]};
       entries[*niche] = i;
     }
 
@@ -72,14 +72,14 @@ class MapElites : public Search {
     for (const auto& [niche, i] : entries) {
       told.scores[i] = qualities[i];
       entered[i] = 1;
-      rows.push_back({std::int64_t{brood_.generation}, std::int64_t{niche},
-                      brood_.individuals[i].id, qualities[i],
+      rows.push_back({std::int64_t{brood_.state.generation}, std::int64_t{niche},
+                      brood_.state.individuals[i].id, qualities[i],
                       nlohmann::json(evaluations[i].descriptors).dump(),
-                      to_json(brood_.genomes[i]).dump()});
+                      to_json(brood_.state.genomes[i]).dump()});
     }
     std::map<int, double> worth;
     for (const auto& [niche, elite] : elites_) worth[niche] = elite.quality;
-    told.rows = map_.rows(brood_.generation, worth, static_cast<int>(entries.size()));
+    told.rows = map_.rows(brood_.state.generation, worth, static_cast<int>(entries.size()));
     told.rows.push_back(origin_rows(brood_, entered, qualities));
     told.rows.push_back(std::move(rows));
     breed(qualities);
@@ -101,8 +101,7 @@ class MapElites : public Search {
   void load(std::span<const std::uint8_t> state, const RowsOf& rows) override {
     try {
       const nlohmann::json json = nlohmann::json::from_cbor(state.begin(), state.end());
-      PopulationState brood = population_of(json.at("brood"));
-      check_brood(brood, neat_, problem_);
+      Brood brood = brood_of(json.at("brood"), neat_, problem_);
       const std::vector<Row> entries = rows(elites_table);
       std::map<int, const Row*> last;
       for (const Row& row : entries) {
@@ -130,8 +129,8 @@ class MapElites : public Search {
     for (const auto& [niche, elite] : elites_) {
       parents.push_back({elite.individual, &elite.genome, elite.quality});
     }
-    for (std::size_t i = 0; elites_.empty() && i < brood_.genomes.size(); ++i) {
-      parents.push_back({brood_.individuals[i].id, &brood_.genomes[i], qualities[i]});
+    for (std::size_t i = 0; elites_.empty() && i < brood_.state.genomes.size(); ++i) {
+      parents.push_back({brood_.state.individuals[i].id, &brood_.state.genomes[i], qualities[i]});
     }
     breed_from(
         parents,
@@ -145,7 +144,7 @@ class MapElites : public Search {
   Problem problem_;
   int threads_;
   QualityMap map_;
-  PopulationState brood_;
+  Brood brood_;
   std::map<int, Elite> elites_;  ///< by niche
 };
 

@@ -59,13 +59,13 @@ Asked PoolSearch::ask() const { return asked_of(brood_, problem_); }
 
 Told PoolSearch::tell(std::span<const Evaluation> evaluations) {
   check_told(evaluations, brood_, problem_);
-  const std::int64_t first_child = brood_.individuals.front().id;
+  const std::int64_t first_child = brood_.state.individuals.front().id;
   std::vector<double> qualities;
   std::vector<Member> children;
   for (std::size_t i = 0; i < evaluations.size(); ++i) {
     qualities.push_back(geometric_mean(evaluations[i]));
-    children.push_back({brood_.individuals[i].id, brood_.generation, brood_.genomes[i],
-                        evaluations[i], qualities[i]});
+    children.push_back({brood_.state.individuals[i].id, brood_.state.generation,
+                        brood_.state.genomes[i], evaluations[i], qualities[i]});
   }
   std::vector<Member> pool = std::move(pool_);
   pool.insert(pool.end(), children.begin(), children.end());
@@ -88,12 +88,12 @@ Told PoolSearch::tell(std::span<const Evaluation> evaluations) {
     lives_on[static_cast<std::size_t>(member.id - first_child)] = 1;
     ++entered;
   }
-  told.rows = survival_->rows(brood_.generation, pool_, children, entered);
+  told.rows = survival_->rows(brood_.state.generation, pool_, children, entered);
   told.rows.push_back(origin_rows(brood_, lives_on, qualities));
   std::vector<Row>& living = told.rows.emplace_back();
   for (std::size_t i = 0; i < pool_.size(); ++i) {
-    living.push_back({std::int64_t{brood_.generation}, static_cast<std::int64_t>(i), pool_[i].id,
-                      std::int64_t{pool_[i].born}, pool_[i].quality});
+    living.push_back({std::int64_t{brood_.state.generation}, static_cast<std::int64_t>(i),
+                      pool_[i].id, std::int64_t{pool_[i].born}, pool_[i].quality});
   }
   breed();
   return told;
@@ -133,8 +133,7 @@ std::vector<std::uint8_t> PoolSearch::save() const {
 void PoolSearch::load(std::span<const std::uint8_t> state, const RowsOf& rows) {
   try {
     const Json json = Json::from_cbor(state.begin(), state.end());
-    PopulationState brood = population_of(json.at("brood"));
-    check_brood(brood, neat_, problem_);
+    Brood brood = brood_of(json.at("brood"), neat_, problem_);
     std::vector<Member> pool;
     for (const Json& member : json.at("pool")) pool.push_back(member_of(member));
     survival_->load(json.at("survival"), rows);

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "evolve/genetics/population.h"
+#include "evolve/search/offspring.h"
 #include "metamorph/searches.h"
 
 namespace metamorph::evolve {
@@ -53,7 +53,7 @@ class PoolSearch : public Search {
 
   Asked ask() const override;
   Told tell(std::span<const Evaluation> evaluations) override;
-  int generation() const override { return brood_.generation; }
+  int generation() const override { return brood_.state.generation; }
   std::vector<Table> tables() const override;
   std::vector<std::uint8_t> save() const override;
   void load(std::span<const std::uint8_t> state, const RowsOf& rows) override;
@@ -66,7 +66,7 @@ class PoolSearch : public Search {
   int threads_;
   std::unique_ptr<Survival> survival_;
   std::vector<Member> pool_;  ///< best first
-  PopulationState brood_;     ///< about to be evaluated
+  Brood brood_;
 };
 
 }  // namespace metamorph::evolve

@@ -211,20 +211,30 @@ TEST(Origins, CountChildrenAndThoseThatEnter) {
   for (const std::string kind : {"map-elites", "nslc", "dns", "nsga2"}) {
     const auto search = make_search(two_axes(kind));
     const std::size_t origins = table_of(*search, "origins");
+    std::map<std::int64_t, double> known;  // quality by individual
     for (int g = 0; g < 6; ++g) {
-      const std::vector<Evaluation> evaluations = invented(search->ask());
+      const Asked asked = search->ask();
+      const std::vector<Evaluation> evaluations = invented(asked);
+      std::int64_t expected = 0;
+      for (std::size_t i = 0; i < evaluations.size(); ++i) {
+        const auto [id, a, b] = asked.lineage[i];
+        known[id] = geometric_mean(evaluations[i]);
+        expected += a >= 0 && known[id] > known.at(a) && (b < 0 || known[id] > known.at(b)) ? 1 : 0;
+      }
       const std::int64_t dead = std::count_if(
           evaluations.begin(), evaluations.end(),
           [](const Evaluation& evaluation) { return geometric_mean(evaluation) == 0; });
       const Told told = search->tell(evaluations);
-      std::int64_t children = 0, entered = 0, told_dead = 0;
+      std::int64_t children = 0, better = 0, entered = 0, told_dead = 0;
       for (const Row& row : told.rows[origins]) {
         EXPECT_EQ(std::get<std::string>(row[1]) == "first", g == 0);
         children += integer(row, 3);
-        entered += integer(row, 4);
-        told_dead += integer(row, 5);
+        better += integer(row, 4);
+        entered += integer(row, 5);
+        told_dead += integer(row, 6);
       }
       EXPECT_EQ(children, 30);
+      EXPECT_EQ(better, expected);
       EXPECT_EQ(told_dead, dead);
       const std::string summary = kind == "nsga2" ? "fronts" : "qd";
       EXPECT_EQ(entered, std::get<std::int64_t>(told.rows[table_of(*search, summary)][0].back()));
