@@ -2,7 +2,8 @@
 needs_of_bench='
 libbenchmark-dev     header:benchmark/benchmark.h
 python3              program:python3
-python3-matplotlib   program:python3'
+python3-matplotlib   program:python3
+python3-scipy        program:python3'
 
 # prepare_bench TARGET...: installs what is missing and builds.
 prepare_bench() {

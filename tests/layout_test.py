@@ -25,7 +25,7 @@ CORE_MAY_INCLUDE = {
     "example": {"body", "development", "locomotion", "reference"},
 }
 PUBLIC_OF_CORE = {
-    "body": ("body", "named", "status", "threads"),
+    "body": ("body", "named", "shape", "status", "threads"),
     "development": ("development", "extraction", "network", "signals"),
     "locomotion": ("automatic_step", "locomotion", "motion", "outcome", "outcome_fields",
                    "scene", "scene_fields", "stability", "step_refusal"),

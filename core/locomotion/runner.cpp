@@ -216,6 +216,8 @@ void Runner<T>::actuate(Outcome& outcome, int every,
   const double ramp = scene.ramp_steps * paper_step;
   const double offset = method_ == Method::drift_kick_drift ? 0.5 : 0;
   const std::int64_t settled = outcome.steps;
+  outcome.height = height();
+  gait_.begin(scene, scene.step, count, batch_.outline_nodes(index_).size());
   if (observe) show(observe, 0);
   for (std::int64_t n = 0; n < count; ++n) {
     const double t = (static_cast<double>(n) + offset) * scene.step;
@@ -232,11 +234,13 @@ void Runner<T>::actuate(Outcome& outcome, int every,
         !sound(outcome, (n + 1) % outline_interval == 0 || last)) {
       return;
     }
+    if (gait_.is_due(n + 1)) look_at_gait();
     if (observe && (n + 1) % every == 0) show(observe, n + 1);
   }
   const Mean end = mean_position();
   outcome.mean_position = {end.x - start.x, measures_height(scene) ? end.y : end.y - start.y};
   outcome.distance = travelled(scene.distance, end.x - start.x, end.y - start.y);
+  gait_.finish(outcome);
 }
 
 // A record holds x_n + h/2 v_n with drift-kick-drift, x_n with symplectic Euler.

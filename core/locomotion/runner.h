@@ -5,6 +5,7 @@
 
 #include "core/locomotion/body_batch.h"
 #include "core/locomotion/collision_list.h"
+#include "core/locomotion/gait.h"
 #include "metamorph/motion.h"
 #include "metamorph/outcome.h"
 
@@ -42,6 +43,8 @@ class Runner {
   void find_crossing(Outcome& outcome);
   double area(std::size_t triangle) const;
   void locate_failure(Outcome& outcome) const;
+  double height() const;
+  void look_at_gait();
   double position_x(int lane) const;
   double position_y(int lane) const;
   Mean mean_position() const;
@@ -71,6 +74,7 @@ class Runner {
   std::vector<std::size_t> lane_of_;           ///< [nodes of the body]
   std::vector<std::size_t> without_pressure_;  ///< triangles
   Aligned<T> look_[6];                         ///< [outline edges], see kernels::EdgeLook
+  GaitWatch gait_;
   std::vector<double> frame_[4];
 };
 

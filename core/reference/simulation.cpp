@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
+#include "core/locomotion/gait.h"
 #include "core/reference/system.h"
 #include "metamorph/automatic_step.h"
 #include "metamorph/step_refusal.h"
@@ -64,6 +66,10 @@ class Evaluation {
         h_(step_of(options, scene)),
         settle_h_(scene.settle_step * (h_ / scene.step)),
         outcome_(describe(body)) {
+    for (const auto& edge : outline_of(body.triangles)) {  // ascending
+      const auto node = static_cast<std::size_t>(edge[0]);
+      if (outline_nodes_.empty() || outline_nodes_.back() != node) outline_nodes_.push_back(node);
+    }
     outcome_.step = h_;
     if (settles(scene_)) outcome_.settle_step = settle_h_;
   }
@@ -73,9 +79,13 @@ class Evaluation {
     const std::array<double, 2> start = system_.mean_position();
     observe(0);
     const std::int64_t steps = steps_in(scene_.run_steps, h_);
+    const auto [lowest, highest] = std::minmax_element(system_.y.begin(), system_.y.end());
+    outcome_.height = *highest - *lowest;
+    gait_.begin(scene_, h_, steps, outline_nodes_.size());
     for (std::int64_t n = 0; n < steps; ++n) {
       system_.step(options_.method, static_cast<double>(n) * h_, h_);
       if (!count(n + 1, h_) || (n + 1 == steps && !(sound() && solid()))) return outcome_;
+      if (gait_.is_due(n + 1)) look_at_gait();
       if ((n + 1) % options_.observe_every == 0) observe(n + 1);
     }
     const std::array<double, 2> end = system_.mean_position();
@@ -83,6 +93,7 @@ class Evaluation {
     const double dy = end[1] - start[1];
     outcome_.distance = travelled(scene_.distance, dx, dy);
     outcome_.mean_position = {dx, measures_height(scene_) ? end[1] : dy};
+    gait_.finish(outcome_);
     return outcome_;
   }
 
@@ -151,6 +162,15 @@ class Evaluation {
     return false;
   }
 
+  void look_at_gait() {
+    const std::array<double, 2> mean = system_.mean_position();
+    gait_.add(mean[0], mean[1]);
+    if (!scene_.ground) return;
+    for (std::size_t n = 0; n < outline_nodes_.size(); ++n) {
+      gait_.touches()[n] += system_.y[outline_nodes_[n]] <= GaitWatch::touching;
+    }
+  }
+
   void observe(std::int64_t step) {
     if (!options_.observe) return;
     options_.observe(
@@ -164,6 +184,8 @@ class Evaluation {
   double settle_h_;  ///< of settling
   Outcome outcome_;
   ref::Health worst_;  // of the steps so far
+  std::vector<std::size_t> outline_nodes_;
+  GaitWatch gait_;
 };
 
 /// The method by whose limit steps are chosen.

@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "core/development/link_check.h"
+#include "evolve/evaluation/describe.h"
 #include "evolve/evaluation/fingerprint.h"
 #include "evolve/evaluation/starts.h"
 #include "evolve/evaluation/stopwatch.h"
@@ -218,9 +219,14 @@ std::vector<Known> Evaluator::Implementation::grow(std::span<const core::Network
     const std::size_t stage = static_cast<std::size_t>(i) % stage_count;
     all[n].bodies[stage] = core::extract_body(embryos[n][stage], rules_.min_cells);
   }
-  for (std::size_t i = 0; i < count; ++i) {
+#pragma omp parallel for schedule(dynamic) num_threads(threads_)
+  for (std::ptrdiff_t n = 0; n < static_cast<std::ptrdiff_t>(count); ++n) {
+    const auto i = static_cast<std::size_t>(n);
+    const std::vector<TrialDescriptors> described =
+        describe_stages(rules_, stages, embryos[i], all[i].bodies);
     Evaluated& result = all[i].result;
     result.stages.resize(trials);
+    result.descriptors.resize(trials);
     result.trials.resize(trials);
     result.evaluated = run_trial;
     for (std::size_t t = 0; t < trials; ++t) {
@@ -231,6 +237,7 @@ std::vector<Known> Evaluator::Implementation::grow(std::span<const core::Network
       const core::Embryo& embryo = embryos[i][stage];
       result.stages[t] = {embryo.cell_count(), embryo.created, embryo.died};
       outcome.status = all[i].bodies[stage].status;
+      result.descriptors[t] = described[stage];
     }
     const core::Embryo& last = embryos[i].back();
     result.created = last.created;
@@ -307,6 +314,7 @@ Outcomes Evaluator::Implementation::run_bodies(std::span<Known* const> all, int 
       std::vector<core::Outcome> starts;
       for (const Task& task : one->tasks[t]) starts.push_back(outcomes.at(task));
       one->result.trials[t] = combine_starts(starts, rules_.trials[t].starts_combine);
+      describe_motion(one->result.descriptors[t], one->result.trials[t]);
     }
     if (!renews_) one->bodies = {};
   }

@@ -35,15 +35,22 @@ core::Outcome combine_starts(std::span<const core::Outcome> outcomes, StartsComb
 
   result.distance = 0;
   result.mean_position = {};
+  result.height = result.stance = result.gait_frequency = 0;
   int ran = 0;
   for (const core::Outcome& outcome : outcomes) {
     if (core::is_failure(outcome.status)) continue;
     ++ran;
     result.distance += outcome.distance;
     for (std::size_t c = 0; c < 2; ++c) result.mean_position[c] += outcome.mean_position[c];
+    result.height += outcome.height;
+    result.stance += outcome.stance;
+    result.gait_frequency += outcome.gait_frequency;
   }
   result.distance /= static_cast<double>(outcomes.size());
   for (double& coordinate : result.mean_position) coordinate /= ran;
+  result.height /= ran;
+  result.stance /= ran;
+  result.gait_frequency /= ran;
   return result;
 }
 

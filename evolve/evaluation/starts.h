@@ -26,8 +26,8 @@ core::Body start_of(const core::Body& body, const Trial& trial, int start, std::
 ///   least   the outcome of the first;
 ///   median  that of the middle one, of two middle ones the lower;
 ///   mean    that of the median, but with the mean distance of all starts, where a failed one
-///           counts 0, and the mean of mean_position over those that did not fail; if the median
-///           failed, its outcome as it is.
+///           counts 0, and the means of mean_position, height, stance and gait_frequency over those
+///           that did not fail; if the median failed, its outcome as it is.
 /// So a body fails where its median (or with `least` any) start fails, and has then distance 0.
 /// Precondition: there is a start.
 core::Outcome combine_starts(std::span<const core::Outcome> outcomes, StartsCombine rule);

@@ -6,11 +6,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "evolve/evaluation/stopwatch.h"
 #include "evolve/experiment/experiment_file.h"
 #include "evolve/files/genome_file.h"
 #include "evolve/files/input_error.h"
+#include "evolve/run/descriptor_table.h"
 #include "evolve/run/outcome_table.h"
 #include "evolve/run/record_schema.h"
 #include "evolve/run/search_tables.h"
@@ -43,9 +45,12 @@ double mean(const std::vector<double>& values) {
 }  // namespace
 
 std::string record_schema() {
-  constexpr std::string_view place = "OUTCOME_COLUMNS";
   std::string sql = record_tables;
-  sql.replace(sql.find(place), place.size(), outcome_columns());
+  const auto put = [&](std::string_view place, const std::string& columns) {
+    sql.replace(sql.find(place), place.size(), columns);
+  };
+  put("OUTCOME_COLUMNS", outcome_columns());
+  put("DESCRIPTOR_COLUMNS", descriptor_columns());
   return sql + work_table;
 }
 
@@ -233,6 +238,7 @@ void Record::write_individuals(const GenerationResult& result) {
   Statement individual(*database_,
                        "INSERT INTO individuals VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   Statement row(*database_, outcome_insertion());
+  Statement described(*database_, descriptor_insertion());
   for (std::size_t i = 0; i < result.individuals.size(); ++i) {
     const Lineage& who = result.asked.lineage[i];
     const Genome& genome = result.asked.genomes[i];
@@ -249,6 +255,10 @@ void Record::write_individuals(const GenerationResult& result) {
       row.bind(stage.cells).bind(stage.created).bind(stage.died);
       bind_outcome(row, e.trials[t]);
       row.run();
+      if (std::isnan(e.descriptors[t].cells)) continue;
+      described.bind(result.generation).bind(static_cast<int>(i)).bind(static_cast<int>(t));
+      bind_descriptors(described, e.descriptors[t]);
+      described.run();
     }
   }
 }

@@ -42,6 +42,11 @@ CREATE TABLE individuals (generation INTEGER, position INTEGER, id INTEGER NOT N
 CREATE TABLE outcomes (generation INTEGER, position INTEGER, trial INTEGER, cells INTEGER NOT NULL,
   created INTEGER NOT NULL, died INTEGER NOT NULL, OUTCOME_COLUMNS,
   PRIMARY KEY (generation, position, trial)) WITHOUT ROWID;
+-- What describes an individual in every trial in which it had a body (metamorph/descriptors.h); NULL
+-- is what describes motion where it failed, and metamorphosis where no body came before. Of several
+-- starts as in outcomes.
+CREATE TABLE descriptors (generation INTEGER, position INTEGER, trial INTEGER, DESCRIPTOR_COLUMNS,
+  PRIMARY KEY (generation, position, trial)) WITHOUT ROWID;
 -- The best by eq 6 of every generation. genome: metamorph-genome/1.
 CREATE TABLE champions (generation INTEGER PRIMARY KEY, position INTEGER NOT NULL,
   individual INTEGER NOT NULL, eq6 REAL NOT NULL, score REAL NOT NULL, genome TEXT NOT NULL);

@@ -58,6 +58,7 @@ inline void expect_agreement(const Simulator& fast, const core::Body& body,
   // unit away from the reference's, over heights of triangles that are not below 0.4 d.
   EXPECT_TRUE(within(c.fast.min_area_ratio - c.reference.min_area_ratio, 0.05 * 2 / 0.4));
   EXPECT_TRUE(within(c.fast.max_speed / c.reference.max_speed - 1, 0.02));
+  EXPECT_TRUE(within(c.fast.height - c.reference.height, rounding(fast, scene, c.reference)));
 }
 
 }  // namespace metamorph::tests

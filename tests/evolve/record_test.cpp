@@ -76,6 +76,12 @@ struct Example {
       one.evaluated = {1, 1};
       one.trials.resize(2);
       one.stages = {{20, 22, 2}, {30, 33, 3}};
+      one.descriptors.resize(2);
+      for (TrialDescriptors& descriptors : one.descriptors) {
+        for (const DescriptorField& field : descriptor_fields) {
+          descriptors.*field.member = std::sqrt(value++);
+        }
+      }
       for (core::Outcome& o : one.trials) {
         core::for_each_field([&](const auto& field) {
           auto& member = o.*field.member;
@@ -100,6 +106,8 @@ struct Example {
     failed.distance = 0;
     failed.failed_value = std::numeric_limits<double>::quiet_NaN();
     result.individuals[1].evaluated[0] = 0;
+    result.individuals[0].descriptors[0].growth = TrialDescriptors::unknown;
+    result.individuals[0].descriptors[1] = {};  // it has no body
     best = {0, 10, 1.0 / 3, 0.3, {1, 2}, result.asked.genomes[0]};
     search.generation_ = 1;
   }
@@ -172,6 +180,23 @@ TEST(Record, EveryFieldOfAGenerationComesBack) {
         EXPECT_EQ(found, column.applies ? text_of(value) : "null") << column.name;
         ++c;
       });
+      EXPECT_EQ(c, s.columns());
+    }
+    EXPECT_FALSE(s.step());
+  }
+  {
+    Statement s(database, "SELECT * FROM descriptors ORDER BY position, trial");
+    for (const auto& [i, t] : {std::pair{0u, 0u}, {1u, 1u}}) {
+      ASSERT_TRUE(s.step());
+      EXPECT_EQ(s.integer(1), static_cast<int>(i));
+      EXPECT_EQ(s.integer(2), static_cast<int>(t));
+      int c = 3;
+      for (const DescriptorField& field : descriptor_fields) {
+        const double value = x.result.individuals[i].descriptors[t].*field.member;
+        EXPECT_EQ(s.name(c), field.name);
+        EXPECT_EQ(s.is_null(c) ? "null" : text_of(s.real(c)), text_of(value)) << field.name;
+        ++c;
+      }
       EXPECT_EQ(c, s.columns());
     }
     EXPECT_FALSE(s.step());

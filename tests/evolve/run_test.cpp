@@ -46,6 +46,19 @@ TEST(Run, RecordsWhatItWasAskedFor) {
     // Progressive search runs larvae only in its first third, and one adult for the record.
     const std::size_t all = 6 * 12 * 2;
     EXPECT_EQ(tables["outcomes"].size(), kind == "progressive" ? all - 2 * 11 : all);
+    // Whatever has a body is described, and what moved is described in full.
+    Database database(path / "run.db", Database::Mode::read);
+    Statement rows(database,
+                   "SELECT count(*), count(d.cells), sum(d.cells = o.body_cells), "
+                   "sum((o.status IN ('ok', 'not_settled')) != (d.stance IS NOT NULL)), "
+                   "count(d.growth) FROM outcomes o LEFT JOIN descriptors d "
+                   "USING (generation, position, trial) WHERE o.body_cells > 0");
+    ASSERT_TRUE(rows.step());
+    EXPECT_EQ(rows.integer(0), static_cast<std::int64_t>(tables["descriptors"].size()));
+    EXPECT_EQ(rows.integer(1), rows.integer(0));
+    EXPECT_EQ(rows.integer(2), rows.integer(0));
+    EXPECT_EQ(rows.integer(3), 0);
+    EXPECT_GT(rows.integer(4), 0);
   }
 }
 

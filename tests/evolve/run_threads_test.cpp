@@ -52,6 +52,9 @@ std::string text_of(const Evaluated& one) {
     const StageCounts& stage = one.stages[t];
     text += fmt::format(" [{} {} {} {}: {}]", one.evaluated[t], stage.cells, stage.created,
                         stage.died, text_of(one.trials[t]));
+    for (const DescriptorField& field : descriptor_fields) {
+      text += fmt::format(" {} {:a}", field.name, one.descriptors[t].*field.member);
+    }
   }
   return text;
 }

@@ -83,6 +83,21 @@ TEST(CombineStarts, RanksByDistance) {
   EXPECT_EQ(combine_starts(std::span(starts).first(3), StartsCombine::median).steps, 2);
 }
 
+TEST(CombineStarts, MeansAreOfWhatDescribesTheGaitToo) {
+  std::array starts = {outcome(Status::ok, 8), outcome(Status::speed, 0), outcome(Status::ok, 2),
+                       outcome(Status::ok, 5)};
+  for (std::size_t s = 0; s < starts.size(); ++s) {
+    starts[s].height = static_cast<double>(s);  // 0, 2 and 3 did not fail
+    starts[s].stance = static_cast<double>(s) / 10;
+    starts[s].gait_frequency = static_cast<double>(s) / 100;
+  }
+  const core::Outcome mean = combine_starts(starts, StartsCombine::mean);
+  EXPECT_DOUBLE_EQ(mean.height, 5.0 / 3);
+  EXPECT_DOUBLE_EQ(mean.stance, 0.5 / 3);
+  EXPECT_DOUBLE_EQ(mean.gait_frequency, 0.05 / 3);
+  EXPECT_EQ(combine_starts(starts, StartsCombine::median).height, 2);
+}
+
 TEST(CombineStarts, AFailureCountsNothing) {
   const std::array starts = {outcome(Status::ok, 6, 60, 0), outcome(Status::ok, 0, 30, 1),
                              outcome(Status::speed, 0, 999, 2), outcome(Status::ok, 3, 0, 3)};

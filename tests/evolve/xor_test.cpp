@@ -1,63 +1,61 @@
+#include "tests/evolve/problems/xor.h"
+
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "evolve/genetics/population.h"
 #include "metamorph/genome.h"
 #include "metamorph/variation.h"
+#include "tests/evolve/problems/solve.h"
 #include "tests/evolve/random_genomes.h"
 
 namespace metamorph::evolve {
 namespace {
 
-// Sum of squared errors of output 0 as exclusive or of inputs 1 and 2, targets -1 and 1.
-double xor_error(const Genome& genome) {
-  const core::Network network = compile(genome);
-  double error = 0;
-  for (int question = 0; question < 4; ++question) {
-    const bool x = (question & 1) != 0, y = (question & 2) != 0;
-    std::vector<double> value = {0, x ? 1.0 : 0.0, y ? 1.0 : 0.0, 0, 0, 1};
-    for (std::size_t n = 0; n + 1 < network.first_link.size(); ++n) {
-      double sum = 0;
-      for (int l = network.first_link[n]; l < network.first_link[n + 1]; ++l) {
-        const std::size_t link = static_cast<std::size_t>(l);
-        sum += static_cast<double>(network.weight[link]) *
-               value[static_cast<std::size_t>(network.source[link])];
-      }
-      value.push_back(std::tanh(sum / 2));
-    }
-    const double answer = value[static_cast<std::size_t>(network.output[0])];
-    error += std::pow(answer - (x != y ? 1 : -1), 2);
-  }
-  return error;
+core::Network one_node(std::vector<int> sources, std::vector<float> weights) {
+  core::Network network;
+  network.inputs = 3;
+  network.first_link = {0, static_cast<int>(sources.size())};
+  network.source = std::move(sources);
+  network.weight = std::move(weights);
+  network.output = {3};
+  return network;
 }
 
-// An error below 1 means that all four signs are right. Selection must get there within a number
-// of evaluations in which blind drawing does not even reach 2, halfway from a constant answer of 0.
-TEST(Neat, SolvesXorWhereRandomSearchDoesNot) {
-  const NeatSettings settings;
-  const int generations = 100;
-  for (const std::uint64_t seed : {1u, 2u}) {
-    PopulationState state = first_generation(settings, seed);
-    double best = 4;
-    for (int g = 0; g < generations && best >= 1; ++g) {
-      std::vector<double> fitness;
-      for (const Genome& genome : state.genomes) {
-        const double error = xor_error(genome);
-        best = std::min(best, error);
-        fitness.push_back(16 - error);
-      }
-      next_generation(state, settings, fitness, false, 2);
+// A network made by hand: the output is x + y - 4 (x and y) - 1/2, steep enough to be near 0 or 1.
+TEST(Xor, KnowsASolution) {
+  core::Network network;
+  network.inputs = 3;
+  network.first_link = {0, 3, 7};
+  network.source = {0, 1, 2, 0, 1, 2, 3};
+  network.weight = {20, 20, -30, 20, 20, -30, -20};
+  network.output = {4};
+  Evaluation evaluation;
+  EXPECT_TRUE(testing::evaluate_xor(network, 1, evaluation));
+  EXPECT_GT(evaluation.objectives.at(0), 15);
+  // Constant: every error is 1/2.
+  EXPECT_FALSE(testing::evaluate_xor(one_node({}, {}), 1, evaluation));
+  EXPECT_EQ(evaluation.objectives.at(0), 4);
+  // Or: three of four.
+  EXPECT_FALSE(testing::evaluate_xor(one_node({0, 1, 2}, {20, 20, -10}), 1, evaluation));
+  EXPECT_NEAR(evaluation.objectives.at(0), 9, 0.01);
+}
+
+// No genome that the search starts from solves it, since no line parts the answers: whoever solves
+// it has grown a node. The bounds of evaluations are those of
+// tests/evolve/known_problems_slow_test.cpp.
+TEST(Xor, IsSolvedByGrowingNodes) {
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+    const SearchSetup setup = testing::minimal_setup(2, 1, 150, seed);
+    const auto solves = [](const core::Network& network, Evaluation& evaluation) {
+      return testing::evaluate_xor(network, testing::stanley_slope, evaluation);
+    };
+    evolve::RandomStream stream = testing::test_stream(50 + static_cast<std::uint32_t>(seed));
+    for (int i = 0; i < 2000; ++i) {
+      Evaluation evaluation;
+      EXPECT_FALSE(
+          solves(compile(seed_genome(setup.neat, stream, setup.shape), setup.shape), evaluation));
     }
-    EXPECT_LT(best, 1) << "seed " << seed;
+    EXPECT_TRUE(testing::attempt(setup, 60000, solves).solved) << "seed " << seed;
   }
-  evolve::RandomStream stream = testing::test_stream(77);
-  double best = 4;
-  for (int i = 0; i < generations * settings.population; ++i) {
-    best = std::min(best, xor_error(seed_genome(settings, stream)));
-  }
-  EXPECT_GT(best, 2);
 }
 
 }  // namespace

@@ -25,6 +25,11 @@ struct Outcome {
   double settle_time = 0;        ///< time units until quiet (or time-out)
   double min_area_ratio = 1;     ///< smallest S/S0 seen
   double max_speed = 0;          ///< largest node speed seen, d per time unit
+  double height = 0;             ///< of the body as actuation begins: at rest on land, d
+  double stance = 0;             ///< share of looks at which a node touches the ground, mean over
+                                 ///< the nodes of the outline that ever touch it
+  double gait_frequency = 0;     ///< at which the mean node position moves most, 1/time unit; 0:
+                                 ///< none was found
   double longest_spring = 0;     ///< longest rest length, d
   double long_spring_share = 0;  ///< share of springs with rest length above 1.5 d
 

@@ -56,6 +56,12 @@ inline constexpr std::tuple outcome_fields{
                          "smallest S/S0 seen"},
     OutcomeField<double>{"max_speed", "max_speed", &Outcome::max_speed,
                          "largest node speed seen, d per time unit"},
+    OutcomeField<double>{"height", "height", &Outcome::height,
+                         "of the body as actuation begins, d"},
+    OutcomeField<double>{"stance", "stance", &Outcome::stance,
+                         "share of time on the ground of the nodes that touch it"},
+    OutcomeField<double>{"gait_frequency", "gait_frequency", &Outcome::gait_frequency,
+                         "at which the mean node position moves most, 1/time unit"},
     OutcomeField<double>{"longest_spring", "longest_spring", &Outcome::longest_spring,
                          "longest rest length, d"},
     OutcomeField<double>{"long_spring_share", "long_spring_share", &Outcome::long_spring_share,
@@ -108,7 +114,7 @@ void visit_columns(const Outcome& outcome, Visit&& visit) {
 // each of them must be one field's.
 static_assert([] {
   const Outcome outcome;
-  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = outcome;
+  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u] = outcome;
   const auto times_listed = [&outcome](const auto& member) {
     int times = 0;
     for_each_field([&](const auto& field) {
@@ -118,7 +124,7 @@ static_assert([] {
     return times;
   };
   return std::apply([&](const auto&... member) { return ((times_listed(member) == 1) && ...); },
-                    std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r));
+                    std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u));
 }());
 
 }  // namespace metamorph::core

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "metamorph/descriptors.h"
 #include "metamorph/development.h"
 #include "metamorph/evaluation.h"
 #include "metamorph/locomotion.h"
@@ -70,19 +71,21 @@ struct Evaluated {
   std::vector<core::Outcome> trials;    ///< [trials]; of one that was not run: empty, distance 0
   std::vector<std::uint8_t> evaluated;  ///< [trials] 0: this trial was not run
   std::vector<StageCounts> stages;      ///< [trials]
-  int created = 1;                      ///< cells ever created in all development that was run
+  std::vector<TrialDescriptors> descriptors;  ///< [trials]
+  int created = 1;  ///< cells ever created in all development that was run
   int died = 0;
   double penalty = 1;  ///< factor on the fitness for creating too many cells
 };
 
-/// The numbers that a search sees: the distance of every trial as objectives, the final mean
-/// positions (x, y) of every trial as descriptors; these are empty where a trial was not run,
-/// failed, or has no body.
+/// The numbers that a search sees: the distance of every trial as objectives; as descriptors first
+/// the final mean positions (x, y) of every trial, then what else describes it in every trial
+/// (metamorph/descriptors.h), then the metamorphosis that led to every trial of a later stage than
+/// the first. Descriptors are empty where a trial was not run, failed, or has no body.
 Evaluation evaluation_of(const Evaluated& evaluated);
-/// What those numbers are called.
+/// What those numbers are called: larva, larva.x, larva.cells, adult.growth, ...
 Problem problem_of(const EvaluationRules& rules, int generations);
 
-/// Where the seconds of an evaluation went.
+/// Where the seconds of an evaluation went; descriptors of bodies are taken as they are extracted.
 struct EvaluationSeconds {
   double develop = 0, extract = 0, locomotion = 0;
   EvaluationSeconds& operator+=(const EvaluationSeconds& other);
