@@ -88,7 +88,7 @@ class Nsga2 : public Survival {
     }
     const std::vector<double> nothing(problem_.objectives.size(), 0.0);
     rows[1].push_back({std::int64_t{generation}, std::int64_t{fronts_},
-                       static_cast<std::int64_t>(front_size_), hypervolume(front, nothing),
+                       static_cast<std::int64_t>(front.size()), hypervolume(front, nothing),
                        std::int64_t{entered}});
     return rows;
   }
