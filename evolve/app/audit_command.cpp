@@ -11,6 +11,7 @@
 #include "evolve/app/commands.h"
 #include "evolve/app/options.h"
 #include "evolve/run/audit.h"
+#include "evolve/run/elite_audit.h"
 #include "metamorph/status.h"
 
 namespace metamorph::evolve {
@@ -19,6 +20,7 @@ namespace {
 struct Arguments {
   std::string run;
   AuditOptions options;
+  int elite_starts = 0;  ///< 0: champions are audited, not elites
   bool json = false;
 };
 
@@ -221,15 +223,66 @@ void print_summary(const RunAudit& audited, const Experiment& experiment) {
   print_trust(audited);
 }
 
+std::function<void(int, int)> progress_of(const char* what) {
+  if (isatty(STDERR_FILENO) == 0) return {};
+  return [what](int done, int all) {
+    std::fprintf(stderr, "\r%d of %d %s%s", done, all, what, done == all ? "\n" : "");
+  };
+}
+
+void print_map(const MapAudit& audited, int starts) {
+  fmt::print("{:>8} {:>10} {:>10} {:>11}\n", "niche", "individual", "recorded/d", "corrected/d");
+  for (const EliteAudit& elite : audited.elites) {
+    fmt::print("{:>8} {:>10} {:>10.4f} {:>11.4f}\n", elite.niche, elite.individual, elite.recorded,
+               elite.corrected);
+  }
+  fmt::print(
+      "\n{} of {} niches filled; QD score {:.6g}, corrected {:.6g} ({}), the mean of {} fresh "
+      "starts "
+      "of every elite; {} of {} elites ({:.1f} %) fall below half of what they entered with\n",
+      audited.elites.size(), audited.niches, audited.qd_score, audited.corrected,
+      percent(relative_deviation(audited.corrected, audited.qd_score)), starts, audited.fallen,
+      audited.elites.size(), 100.0 * audited.fallen / static_cast<double>(audited.elites.size()));
+}
+
+void print_map_json(const MapAudit& audited, const RunReader& run, int starts) {
+  for (const EliteAudit& elite : audited.elites) {
+    const nlohmann::ordered_json json = {{"niche", elite.niche},
+                                         {"individual", elite.individual},
+                                         {"recorded", elite.recorded},
+                                         {"corrected", elite.corrected}};
+    fmt::print("{}\n", json.dump());
+  }
+  const nlohmann::ordered_json json = {
+      {"run", run.file().string()},         {"filled", audited.elites.size()},
+      {"niches", audited.niches},           {"starts", starts},
+      {"qd_score", audited.qd_score},       {"corrected_qd_score", audited.corrected},
+      {"fallen_below_half", audited.fallen}};
+  fmt::print("{}\n", json.dump());
+}
+
+void audit_map(const Arguments& given) {
+  const RunReader run(given.run);
+  EliteAuditOptions options;
+  options.starts = given.elite_starts;
+  options.displacement = given.options.disturbance;
+  options.threads = given.options.threads;
+  const MapAudit audited = audit_elites(run, options, progress_of("starts"));
+  if (given.json) {
+    print_map_json(audited, run, options.starts);
+  } else {
+    print_map(audited, options.starts);
+  }
+}
+
 void audit_command(const Arguments& given) {
+  if (given.elite_starts > 0) {
+    audit_map(given);
+    return;
+  }
   const RunReader run(given.run);
   const Experiment experiment = run.experiment();
-  std::function<void(int, int)> progress;
-  if (isatty(STDERR_FILENO) != 0) {
-    progress = [](int done, int all) {
-      std::fprintf(stderr, "\r%d of %d trials%s", done, all, done == all ? "\n" : "");
-    };
-  }
+  const std::function<void(int, int)> progress = progress_of("trials");
   const RunAudit audited = audit(run, given.options, progress);
   if (given.json) {
     print_json(audited, run, experiment);
@@ -269,11 +322,17 @@ void add_audit_command(CLI::App& app) {
       ->option_text("N [4]");
   command->add_flag("--nearby-in-water", given->options.nearby_in_water,
                     "Nearby starts in scenes without ground as well, which forget most of them");
+  command
+      ->add_option("--elites", given->elite_starts,
+                   "Of a run of map-elites, instead of champions: every elite again from so many "
+                   "starts that it never had, and the QD score that remains")
+      ->check(integer_from(1, 1000))
+      ->option_text("N");
   command->add_option("--threads", given->options.threads, "Threads; 0 for all there are")
       ->check(integer_from(0, 4096))
       ->option_text("N [0]");
   command->add_flag("--json", given->json,
-                    "One JSON object per champion and trial, then one for the run");
+                    "One JSON object per champion and trial, or elite, then one for the run");
   command->callback([given] { audit_command(*given); });
 }
 

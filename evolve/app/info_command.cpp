@@ -25,6 +25,12 @@ void add_health(nlohmann::ordered_json& json, const SearchHealth& health) {
     json["archive"] = {
         {"size", archive->size}, {"threshold", archive->threshold}, {"copies", archive->copies}};
   }
+  if (const auto& map = health.map) {
+    json["map"] = {{"filled", map->filled}, {"niches", map->niches}, {"qd_score", map->qd_score}};
+  }
+  if (const auto& front = health.front) {
+    json["front"] = {{"size", front->size}, {"hypervolume", front->hypervolume}};
+  }
   for (const auto& [trial, share] : health.behaviour) json["behaviour_shares"][trial] = share;
 }
 
@@ -48,6 +54,14 @@ void print_health(const SearchHealth& health) {
   if (const auto& archive = health.archive) {
     fmt::print("archive      {} behaviours, threshold {:.3g} d, {} copies met\n", archive->size,
                archive->threshold, archive->copies);
+  }
+  if (const auto& map = health.map) {
+    fmt::print("map          {} of {} niches filled, QD score {:.6g}\n", map->filled, map->niches,
+               map->qd_score);
+  }
+  if (const auto& front = health.front) {
+    fmt::print("front        {} that nobody dominates, hypervolume {:.6g}\n", front->size,
+               front->hypervolume);
   }
   if (!health.behaviour.empty()) {
     fmt::print("behaviour    variance");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
+#include <utility>
 
 #include "metamorph/random.h"
 #include "metamorph/variation.h"
@@ -138,48 +139,25 @@ struct Breeder {
     };
     RandomStream choice = stream(Purpose::parent_choice);
     const std::uint32_t mother = choice.below(static_cast<std::uint32_t>(parents.size()));
-    result.parent_a = parents[mother];
+    int other = -1;
     if (choice.chance(settings.crossover)) {
       if (choice.chance(settings.interspecies_crossover) && breeding.size() > 1) {
         RandomStream foreign = stream(Purpose::species_choice);
-        result.parent_b = foreign_mate(slot.species, foreign);
+        other = foreign_mate(slot.species, foreign);
       } else if (parents.size() > 1) {
-        const std::uint32_t other = choice.below(static_cast<std::uint32_t>(parents.size() - 1));
-        result.parent_b = parents[other + (other >= mother ? 1 : 0)];
+        const std::uint32_t drawn = choice.below(static_cast<std::uint32_t>(parents.size() - 1));
+        other = parents[drawn + (drawn >= mother ? 1 : 0)];
       }
     }
-    if (result.parent_b >= 0) {
-      RandomStream crossing = stream(Purpose::crossover);
-      const bool averaging = !crossing.chance(settings.multipoint);
-      const bool a_leads = fitter(result.parent_a, result.parent_b);
-      result.genome =
-          cross(genome(a_leads ? result.parent_a : result.parent_b),
-                genome(a_leads ? result.parent_b : result.parent_a), averaging, crossing);
-    } else {
-      result.genome = genome(result.parent_a);
-    }
-    RandomStream mutation = stream(Purpose::mutation);
-    result.origin = result.parent_b < 0 ? Origin::copy : Origin::crossover;
-    if (result.parent_b < 0 || mutation.chance(settings.mutation_after_crossover)) {
-      const MutationKind kind = mutate(result.genome, result.change, settings, mutation);
-      if (kind != MutationKind::none) result.origin = origin_of(kind);
-    }
-    return result;
+    const Mate a = mate(parents[mother]);
+    const Mate b = mate(other < 0 ? parents[mother] : other);
+    return child_of(a, other < 0 ? nullptr : &b, settings, stream(Purpose::crossover),
+                    stream(Purpose::mutation));
   }
 
  private:
   const Genome& genome(int i) const { return state.genomes[static_cast<std::size_t>(i)]; }
-
-  // Equal fitness: the smaller genome leads, then the earlier individual.
-  bool fitter(int a, int b) const {
-    const double of_a = fitness[static_cast<std::size_t>(a)];
-    const double of_b = fitness[static_cast<std::size_t>(b)];
-    if (of_a != of_b) return of_a > of_b;
-    if (genome(a).links.size() != genome(b).links.size()) {
-      return genome(a).links.size() < genome(b).links.size();
-    }
-    return a < b;
-  }
+  Mate mate(int i) const { return {genome(i), fitness[static_cast<std::size_t>(i)], i}; }
 
   int foreign_mate(std::size_t own, RandomStream& stream) const {
     const std::uint32_t others = static_cast<std::uint32_t>(breeding.size() - 1);
@@ -191,23 +169,94 @@ struct Breeder {
   }
 };
 
-std::uint64_t fingerprint(const Child& child) {
+// Equal fitness: the smaller genome leads, then the earlier individual.
+bool leads(const Mate& a, const Mate& b) {
+  if (a.fitness != b.fitness) return a.fitness > b.fitness;
+  if (a.genome.links.size() != b.genome.links.size()) {
+    return a.genome.links.size() < b.genome.links.size();
+  }
+  return a.index < b.index;
+}
+
+std::uint64_t fingerprint(const Genome& genome, const StructuralChange& change) {
   std::uint64_t hash = 0;
   const auto mix = [&](std::uint64_t value) {
     hash = (hash ^ value) * 0x9E3779B97F4A7C15u;
     hash ^= hash >> 29;
   };
-  for (const LinkGene& link : child.genome.links) {
+  for (const LinkGene& link : genome.links) {
     mix(static_cast<std::uint64_t>(link.innovation));
     mix(std::bit_cast<std::uint64_t>(link.weight));
   }
-  mix(static_cast<std::uint64_t>(child.change.kind));
-  mix(static_cast<std::uint64_t>(child.change.from));
-  mix(static_cast<std::uint64_t>(child.change.to));
+  mix(static_cast<std::uint64_t>(change.kind));
+  mix(static_cast<std::uint64_t>(change.from));
+  mix(static_cast<std::uint64_t>(change.to));
   return hash;
 }
 
 }  // namespace
+
+Child child_of(const Mate& a, const Mate* b, const NeatSettings& settings, RandomStream crossing,
+               RandomStream mutation) {
+  Child child;
+  child.parent_a = a.index;
+  child.origin = Origin::copy;
+  if (b != nullptr) {
+    child.parent_b = b->index;
+    child.origin = Origin::crossover;
+    const bool averaging = !crossing.chance(settings.multipoint);
+    const bool a_leads = leads(a, *b);
+    child.genome =
+        cross(a_leads ? a.genome : b->genome, a_leads ? b->genome : a.genome, averaging, crossing);
+  } else {
+    child.genome = a.genome;
+  }
+  if (b == nullptr || mutation.chance(settings.mutation_after_crossover)) {
+    const MutationKind kind = mutate(child.genome, child.change, settings, mutation);
+    if (kind != MutationKind::none) child.origin = origin_of(kind);
+  }
+  return child;
+}
+
+std::vector<Child> breed_distinct(int count, int tries, int threads,
+                                  const std::function<Child(int, int)>& child,
+                                  const std::function<bool(int)>& is_copy,
+                                  std::span<const Genome* const> living) {
+  std::vector<Child> children(static_cast<std::size_t>(count));
+  std::vector<std::uint64_t> prints(children.size());
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (int i = 0; i < count; ++i) {
+    const std::size_t c = static_cast<std::size_t>(i);
+    children[c] = child(i, 0);
+    prints[c] = fingerprint(children[c].genome, children[c].change);
+  }
+
+  // Clones are looked for in order of the children: which one is bred again must not depend on
+  // which thread was first. They are compared before numbering: equal changes get equal numbers.
+  static constexpr StructuralChange unchanged;
+  using Known = std::pair<const Genome*, const StructuralChange*>;
+  std::unordered_multimap<std::uint64_t, Known> earlier;
+  earlier.reserve(children.size() + living.size());
+  for (const Genome* genome : living) {
+    earlier.emplace(fingerprint(*genome, unchanged), Known(genome, &unchanged));
+  }
+  for (int i = 0; i < count; ++i) {
+    const std::size_t c = static_cast<std::size_t>(i);
+    const auto is_clone = [&] {
+      const auto [from, to] = earlier.equal_range(prints[c]);
+      return std::any_of(from, to, [&](const auto& entry) {
+        const auto& [genome, change] = entry.second;
+        return *genome == children[c].genome && *change == children[c].change;
+      });
+    };
+    for (int attempt = 1; attempt <= tries && !is_copy(i) && is_clone(); ++attempt) {
+      children[c] = child(i, attempt);
+      prints[c] = fingerprint(children[c].genome, children[c].change);
+    }
+    earlier.emplace(prints[c], Known(&children[c].genome, &children[c].change));
+  }
+  return children;
+}
 
 std::vector<Child> breed(const PopulationState& state, const NeatSettings& settings,
                          std::span<const double> fitness, const std::vector<SpeciesPlan>& plans,
@@ -217,37 +266,10 @@ std::vector<Child> breed(const PopulationState& state, const NeatSettings& setti
     if (plans[s].offspring > 0) breeder.breeding.push_back(s);
     for (int c = 0; c < plans[s].offspring; ++c) breeder.slots.push_back({s, c == 0});
   }
-  const int count = static_cast<int>(breeder.slots.size());
-  std::vector<Child> children(breeder.slots.size());
-  std::vector<std::uint64_t> prints(children.size());
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (int i = 0; i < count; ++i) {
-    const std::size_t c = static_cast<std::size_t>(i);
-    children[c] = breeder.child(i, 0);
-    prints[c] = fingerprint(children[c]);
-  }
-
-  // Clones are looked for in order of the children: which one is bred again must not depend on
-  // which thread was first. They are compared before numbering: equal changes get equal numbers.
-  std::unordered_multimap<std::uint64_t, std::size_t> earlier;
-  earlier.reserve(children.size());
-  for (int i = 0; i < count; ++i) {
-    const std::size_t c = static_cast<std::size_t>(i);
-    const auto is_clone = [&] {
-      const auto [from, to] = earlier.equal_range(prints[c]);
-      return std::any_of(from, to, [&](const auto& entry) {
-        const Child& other = children[entry.second];
-        return other.genome == children[c].genome && other.change == children[c].change;
-      });
-    };
-    for (int attempt = 1;
-         attempt <= settings.clone_tries && !breeder.slots[c].is_copy && is_clone(); ++attempt) {
-      children[c] = breeder.child(i, attempt);
-      prints[c] = fingerprint(children[c]);
-    }
-    earlier.emplace(prints[c], c);
-  }
-  return children;
+  return breed_distinct(
+      static_cast<int>(breeder.slots.size()), settings.clone_tries, threads,
+      [&](int index, int attempt) { return breeder.child(index, attempt); },
+      [&](int index) { return breeder.slots[static_cast<std::size_t>(index)].is_copy; }, {});
 }
 
 }  // namespace metamorph::evolve

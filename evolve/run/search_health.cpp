@@ -47,6 +47,16 @@ SearchHealth search_health(Database& record) {
                    "archive_sizes) FROM archive_sizes ORDER BY generation DESC LIMIT 1");
     if (last.step()) health.archive = {last.integer(0), last.integer(2), last.real(1)};
   }
+  if (has(record, "qd")) {
+    Statement last(record,
+                   "SELECT filled, niches, qd_score FROM qd ORDER BY generation DESC LIMIT 1");
+    if (last.step()) health.map = {last.integer(0), last.integer(1), last.real(2)};
+  }
+  if (has(record, "fronts")) {
+    Statement last(record,
+                   "SELECT front_size, hypervolume FROM fronts ORDER BY generation DESC LIMIT 1");
+    if (last.step()) health.front = {last.integer(0), last.real(1)};
+  }
   if (has(record, "behaviour_shares")) {
     Statement last(record,
                    "SELECT trial, share FROM behaviour_shares WHERE generation = (SELECT "

@@ -26,6 +26,16 @@ struct SearchHealth {
   std::vector<std::pair<std::string, std::int64_t>> ended;  ///< why, how many
   std::vector<Origin> origins;
   std::optional<Archive> archive;
+  struct Map {
+    std::int64_t filled = 0, niches = 0;
+    double qd_score = 0;
+  };
+  struct Front {
+    std::int64_t size = 0;
+    double hypervolume = 0;
+  };
+  std::optional<Map> map;                                 ///< after the last generation
+  std::optional<Front> front;                             ///< likewise
   std::vector<std::pair<std::string, double>> behaviour;  ///< trial, share of the variance, last
 
   static constexpr int recent = 10;  ///< generations that the children are counted over

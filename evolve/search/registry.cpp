@@ -12,10 +12,15 @@ namespace metamorph::evolve {
 SearchKind simple_search();
 SearchKind progressive_search();
 SearchKind novelty_search();
+SearchKind map_elites_search();
+SearchKind nslc_search();
+SearchKind dns_search();
+SearchKind nsga2_search();
 
 const std::vector<SearchKind>& search_kinds() {
-  static const std::vector<SearchKind> kinds = {simple_search(), progressive_search(),
-                                                novelty_search()};
+  static const std::vector<SearchKind> kinds = {
+      simple_search(), progressive_search(), novelty_search(), map_elites_search(),
+      nslc_search(),   dns_search(),         nsga2_search()};
   return kinds;
 }
 

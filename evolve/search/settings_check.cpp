@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
 #include <type_traits>
 
 #include "metamorph/genome.h"
@@ -54,8 +56,10 @@ void check_neat(const NeatSettings& neat, std::vector<Contradiction>& found) {
 }
 
 void check_values(const SearchSettings& settings, std::vector<Contradiction>& found) {
+  std::set<std::string_view> checked;
   for (const SearchKind& kind : search_kinds()) {
     for (const Setting& setting : kind.settings) {
+      if (!checked.insert(setting.name).second) continue;  // of another kind, too
       const std::string key = fmt::format("search.{}", setting.name);
       const auto value = settings.values.find(setting.name);
       if (value == settings.values.end() || value->second.index() != setting.initial.index()) {

@@ -53,6 +53,14 @@ const std::vector<Expected> model_experiments = [] {
     all.push_back(
         {"land-to-water-" + kind, kind, 2000, 1200, 256, {{600, "land"}, {1200, "water"}}});
   }
+  for (const auto& [name, kind] : {std::pair{"front", "nsga2"}, std::pair{"map", "map-elites"}}) {
+    all.push_back({std::string("water-to-land-").append(name),
+                   kind,
+                   2000,
+                   1200,
+                   256,
+                   {{600, "water"}, {1200, "land"}}});
+  }
   for (const int steps : {600, 1200}) {
     all.push_back({"amphibious-" + std::to_string(steps),
                    "novelty",
@@ -296,7 +304,7 @@ TEST(Experiment, EveryFaultGetsItsLine) {
        "x.toml:11: neat.crossover = true: expected a number from 0 to 1"},
       {g + "[search]\nkind = \"newness\"\n",
        "x.toml:11: search.kind = \"newness\": expected one of \"simple\", \"progressive\", "
-       "\"novelty\""},
+       "\"novelty\", \"map-elites\", \"nslc\", \"dns\", \"nsga2\""},
       {g + "[scenes.water]\ndrag = 1\n",
        "x.toml:11: scenes.water.drag = 1: expected true or false"},
       {g + "[scenes.slope]\nfriction = 1\n",

@@ -109,6 +109,7 @@ SearchSetup setup_of(const std::string& kind, const std::vector<int>& stages, in
   setup.neat.population = 4;
   for (const int stage : stages) setup.problem.objectives.push_back({"o", stage});
   setup.problem.descriptors = {{"o.x", 0, -9, 9}, {"o.y", 0, -9, 9}};
+  setup.settings.values["axes"] = std::vector<std::string>{"o.x", "o.y"};
   setup.problem.generations = generations;
   setup.threads = 1;
   return setup;
@@ -408,8 +409,10 @@ TEST(MakeSearch, RefusesWhatCannotBeASearch) {
               HasSubstr("search.neighbours: expected a value of the type"));
   EXPECT_EQ(refusal([](SearchSetup& s) { s.settings.values["neighbors"] = 1; }),
             "search.neighbors: expected a setting of some search");
-  EXPECT_THAT(refusal([](SearchSetup& s) { s.settings.kind = "noveltie"; }),
-              HasSubstr("search.kind: expected one of simple, progressive, novelty"));
+  EXPECT_THAT(
+      refusal([](SearchSetup& s) { s.settings.kind = "noveltie"; }),
+      HasSubstr("search.kind: expected one of simple, progressive, novelty, map-elites, nslc, "
+                "dns, nsga2"));
   EXPECT_EQ(refusal([](SearchSetup& s) { s.shape.outputs.clear(); }),
             "shape.outputs: expected one output or more, each once");
   EXPECT_EQ(refusal([](SearchSetup& s) { s.shape.inputs.pop_back(); }),

@@ -13,6 +13,8 @@ enum class Purpose : std::uint32_t {
   species_choice = 5,
   nearby_start = 6,
   trial_start = 7,
+  niche_centre = 20,
+  archive_choice = 21,
   test = 1000,
 };
 
