@@ -38,7 +38,9 @@ std::unique_ptr<Search> make_search(const SearchSetup& setup) {
     lines += fmt::format("{}{}: expected {}", lines.empty() ? "" : "\n", fault.key, fault.expected);
   }
   if (!lines.empty()) throw std::invalid_argument(lines);
-  return search_kind(setup.settings.kind).make(setup);
+  SearchSetup complete = setup;
+  complete.neat.stages = stage_count(setup.problem);
+  return search_kind(setup.settings.kind).make(complete);
 }
 
 SearchSettings::SearchSettings() {
