@@ -17,7 +17,7 @@ inline constexpr std::array separation_names = {
     core::Named<Separation>{Separation::partial, "partial"},
     core::Named<Separation>{Separation::full, "full"}};
 
-/// Settings of NEAT (MODEL section 5). Initially what evolved best here (bench/SEARCH.md).
+/// Settings of NEAT (MODEL section 5). Initially the preset "standard" (bench/SEARCH.md).
 struct NeatSettings {
   int population = 300;
   int hidden_nodes = 8;
