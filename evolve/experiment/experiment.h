@@ -29,8 +29,8 @@ struct LocomotionSettings {
   core::Method method = core::Method::drift_kick_drift;
 };
 
-/// What the settings of a search start from, before a file changes some: those that evolve best
-/// here (bench/SEARCH.md), or those of the paper.
+/// What the settings of a search start from, before a file changes some: gentle mutation and
+/// lasting species (bench/SEARCH.md), or what the paper has.
 enum class Preset { standard, paper };
 inline constexpr std::array preset_names = {core::Named<Preset>{Preset::standard, "standard"},
                                             core::Named<Preset>{Preset::paper, "paper"}};

@@ -66,14 +66,14 @@ Choice base_choice(NamedScene& named) {
 }
 
 Section top_section(Experiment& e) {
-  return {
-      "",
-      "the run",
-      {{"name", &e.name, 0, 0, "name of the experiment; part of the run's directory"},
-       {"generations", &e.generations, 1, 1e7, "generations to evolve"},
-       {"seed", &e.seed, 0, 0x1p53, "seed of every random number of the run"},
-       {"preset", choice(e.preset, preset_names), 0, 0,
-        "where [search] and [neat] start from: what evolves best here, or the paper's search"}}};
+  return {"",
+          "the run",
+          {{"name", &e.name, 0, 0, "name of the experiment; part of the run's directory"},
+           {"generations", &e.generations, 1, 1e7, "generations to evolve"},
+           {"seed", &e.seed, 0, 0x1p53, "seed of every random number of the run"},
+           {"preset", choice(e.preset, preset_names), 0, 0,
+            "where [search] and [neat] start from: gentle mutation and lasting species, or the "
+            "paper's search"}}};
 }
 
 Section development_section(Experiment& e) {
