@@ -22,14 +22,7 @@ class Dns : public MapSurvival {
         threads_(core::thread_count(setup.threads)) {}
 
   Judgement judge(std::span<const Member> pool) override {
-    std::vector<Placed> all;
-    std::vector<std::size_t> from;
-    for (std::size_t p = 0; p < pool.size(); ++p) {
-      Placed one = placed(pool[p]);
-      if (one.position.empty()) continue;
-      all.push_back(std::move(one));
-      from.push_back(p);
-    }
+    const auto [all, from] = placed(pool);
     const std::vector<double> distances = distances_to_fitter(all, neighbours_, threads_);
     std::vector<double> fitness(pool.size(), -1.0);
     for (std::size_t i = 0; i < all.size(); ++i) fitness[from[i]] = distances[i];

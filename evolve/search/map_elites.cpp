@@ -52,7 +52,7 @@ class MapElites : public Search {
 
   /// Scores: the quality of whoever is in the map afterwards, 0 of all others.
   Told tell(std::span<const Evaluation> evaluations) override {
-    check_told(evaluations, brood_, problem_);
+    check_told(evaluations, brood_.state.genomes.size(), problem_);
     std::vector<double> qualities;
     std::map<int, std::size_t> entries;  // who of the brood holds a niche now
     for (std::size_t i = 0; i < evaluations.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "evolve/search/local_competition.h"
@@ -34,6 +35,19 @@ class MapSurvival : public Survival {
  protected:
   Placed placed(const Member& member) const {
     return {member.id, position_on(map_.axes(), member.evaluation), member.quality};
+  }
+  /// Those of the pool that have a place, and where in the pool they stand.
+  std::pair<std::vector<Placed>, std::vector<std::size_t>> placed(
+      std::span<const Member> pool) const {
+    std::vector<Placed> all;
+    std::vector<std::size_t> from;
+    for (std::size_t p = 0; p < pool.size(); ++p) {
+      Placed one = placed(pool[p]);
+      if (one.position.empty()) continue;
+      all.push_back(std::move(one));
+      from.push_back(p);
+    }
+    return {std::move(all), std::move(from)};
   }
   const QualityMap& map() const { return map_; }
 

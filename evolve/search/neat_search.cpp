@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "evolve/genetics/species.h"
+#include "evolve/search/offspring.h"
 #include "evolve/search/population_json.h"
 #include "metamorph/threads.h"
 #include "metamorph/variation.h"
@@ -20,12 +21,7 @@ namespace metamorph::evolve {
 namespace {
 // Tables that every NEAT search has, in this order; with separated stages another one follows, then
 // those of its scorer.
-constexpr std::size_t origins_table = 3, changes_table = 4, own_tables = 5;
-
-NeatSettings with_stages(NeatSettings settings, const Problem& problem) {
-  settings.stages = stage_count(problem);
-  return settings;
-}
+constexpr std::size_t origins_place = 3, changes_place = 4, own_tables = 5;
 
 }  // namespace
 
@@ -42,7 +38,7 @@ std::vector<std::string> neat_notes(const SearchSetup& setup) {
 }
 
 NeatSearch::NeatSearch(const SearchSetup& setup, std::unique_ptr<Scorer> scorer)
-    : settings_(with_stages(setup.neat, setup.problem)),
+    : settings_(setup.neat),
       problem_(setup.problem),
       threads_(core::thread_count(setup.threads)),
       scorer_(std::move(scorer)),
@@ -66,17 +62,7 @@ std::vector<std::uint8_t> NeatSearch::measured() const {
 }
 
 Told NeatSearch::tell(std::span<const Evaluation> evaluations) {
-  const bool fit =
-      evaluations.size() == population_.genomes.size() &&
-      std::all_of(evaluations.begin(), evaluations.end(), [&](const Evaluation& e) {
-        return e.objectives.size() == problem_.objectives.size() &&
-               (e.descriptors.empty() || e.descriptors.size() == problem_.descriptors.size());
-      });
-  if (!fit) {
-    throw std::invalid_argument(
-        "tell: expected one evaluation per genome, each with the problem's objectives, and its "
-        "descriptors or none");
-  }
+  check_told(evaluations, population_.genomes.size(), problem_);
   Told told;
   told.scores = scorer_->score(population_, evaluations);
   std::vector<double> merits;
@@ -90,8 +76,8 @@ Told NeatSearch::tell(std::span<const Evaluation> evaluations) {
     merits.push_back(geometric_mean(evaluation));
   }
   told.rows = rows_of(told.scores);
-  told.rows[origins_table] = origin_rows(merits);
-  std::vector<Row>& changes = told.rows[changes_table];
+  told.rows[origins_place] = origin_rows(merits);
+  std::vector<Row>& changes = told.rows[changes_place];
   const auto note = [&](int id, std::string_view change) {
     changes.push_back(
         {std::int64_t{population_.generation}, std::int64_t{id}, std::string(change)});

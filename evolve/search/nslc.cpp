@@ -45,14 +45,7 @@ class Nslc : public MapSurvival {
         threads_(core::thread_count(setup.threads)) {}
 
   Judgement judge(std::span<const Member> pool) override {
-    std::vector<Placed> all;
-    std::vector<std::size_t> from;
-    for (std::size_t p = 0; p < pool.size(); ++p) {
-      Placed one = placed(pool[p]);
-      if (one.position.empty()) continue;
-      all.push_back(std::move(one));
-      from.push_back(p);
-    }
+    auto [all, from] = placed(pool);
     all.insert(all.end(), archive_.begin(), archive_.end());
     const std::vector<Neighbourhood> of = neighbourhoods(all, from.size(), neighbours_, threads_);
     std::vector<std::vector<double>> points(pool.size(), {-1.0, -1.0});

@@ -82,10 +82,10 @@ Asked asked_of(const Brood& brood, const Problem& problem) {
   return asked;
 }
 
-void check_told(std::span<const Evaluation> evaluations, const Brood& brood,
+void check_told(std::span<const Evaluation> evaluations, std::size_t individuals,
                 const Problem& problem) {
   const bool fit =
-      evaluations.size() == brood.state.genomes.size() &&
+      evaluations.size() == individuals &&
       std::all_of(evaluations.begin(), evaluations.end(), [&](const Evaluation& e) {
         return e.objectives.size() == problem.objectives.size() &&
                (e.descriptors.empty() || e.descriptors.size() == problem.descriptors.size());

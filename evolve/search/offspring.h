@@ -45,9 +45,9 @@ void breed_from(std::span<const Parent> parents, const ParentChoice& choose,
 /// What a search asks for: the whole brood, every objective measured.
 Asked asked_of(const Brood& brood, const Problem& problem);
 
-/// Throws std::invalid_argument unless there is one evaluation per individual of the brood, each
+/// For any search: throws std::invalid_argument unless there is one evaluation per individual, each
 /// with the problem's objectives and its descriptors or none.
-void check_told(std::span<const Evaluation> evaluations, const Brood& brood,
+void check_told(std::span<const Evaluation> evaluations, std::size_t individuals,
                 const Problem& problem);
 
 /// For checkpoints. The inverse throws nlohmann's exceptions, or std::runtime_error if the brood is

@@ -58,7 +58,7 @@ PoolSearch::PoolSearch(const SearchSetup& setup, std::unique_ptr<Survival> survi
 Asked PoolSearch::ask() const { return asked_of(brood_, problem_); }
 
 Told PoolSearch::tell(std::span<const Evaluation> evaluations) {
-  check_told(evaluations, brood_, problem_);
+  check_told(evaluations, brood_.state.genomes.size(), problem_);
   const std::int64_t first_child = brood_.state.individuals.front().id;
   std::vector<double> qualities;
   std::vector<Member> children;
