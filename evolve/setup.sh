@@ -123,7 +123,9 @@ configure() {
     grep -qx "CMAKE_GENERATOR:INTERNAL=$generator" "$cache"; }; then
     rm -rf "$cache" "build/$preset/CMakeFiles"
   fi
-  command -v ccache >/dev/null 2>&1 && set -- -DCMAKE_CXX_COMPILER_LAUNCHER=ccache "$@"
+  # ccache keeps nothing that was compiled with precompiled headers.
+  command -v ccache >/dev/null 2>&1 &&
+    set -- -DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON "$@"
   mkdir -p "build/$preset"
   log="build/$preset/configure.log"
   cmake --preset "$preset" -G "$generator" "$@" >"$log" 2>&1 || {

@@ -15,17 +15,27 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
   if (mode != Mode::create && !std::filesystem::is_regular_file(file)) {
     throw InputError(fmt::format("{}: no such file: expected the record of a run", file.string()));
   }
-  const int flags = mode == Mode::read    ? SQLITE_OPEN_READONLY
-                    : mode == Mode::write ? SQLITE_OPEN_READWRITE
-                                          : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  const int flags =
+      mode == Mode::create ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READWRITE;
   try {
-    check(sqlite3_open_v2(file.c_str(), &database_, flags, nullptr));
-    sqlite3_busy_timeout(database_, 10000);
+    open(mode == Mode::read ? SQLITE_OPEN_READONLY : flags);
+    // A journal that a killed writer left behind is played back by the first statement that reads.
+    if (mode == Mode::read && sqlite3_exec(database_, "SELECT 1 FROM sqlite_master", nullptr,
+                                           nullptr, nullptr) == SQLITE_READONLY) {
+      sqlite3_close(database_);
+      open(flags);
+      run("PRAGMA query_only = ON");
+    }
     run("PRAGMA foreign_keys = ON");
   } catch (...) {
     sqlite3_close(database_);
     throw;
   }
+}
+
+void Database::open(int flags) {
+  check(sqlite3_open_v2(file_.c_str(), &database_, flags, nullptr));
+  sqlite3_busy_timeout(database_, 10000);
 }
 
 Database::~Database() { sqlite3_close(database_); }

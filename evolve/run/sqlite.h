@@ -50,7 +50,8 @@ class Statement {
   int next_ = 1;  ///< parameter the next bind() sets
 };
 
-/// An open SQLite file.
+/// An open SQLite file. Where its writer was killed, what it left half done is undone, for which
+/// Mode::read writes too.
 class Database {
  public:
   enum class Mode { create, write, read };
@@ -65,6 +66,8 @@ class Database {
   const std::filesystem::path& file() const { return file_; }
 
  private:
+  void open(int flags);
+
   std::filesystem::path file_;
   sqlite3* database_ = nullptr;
 };

@@ -304,6 +304,27 @@ void restored(const std::filesystem::path& path) {
   record->restore(*search);
 }
 
+TEST(Record, CanBeReadWhereItsWriterWasKilledHalfWay) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path whole = directory.path() / "whole";
+  const std::filesystem::path killed = directory.path() / "killed";
+  run_whole(whole, tiny_experiment("simple", 3));
+  const auto expected = tests::contents(whole);
+  {
+    // Copied while a transaction has written over pages of the file that only its journal still
+    // has.
+    Database database(whole / "run.db", Database::Mode::write);
+    database.run(
+        "PRAGMA cache_size = 1; BEGIN; DELETE FROM individuals; DELETE FROM run;"
+        "CREATE TABLE more AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 "
+        "FROM n WHERE i < 3000) SELECT i, randomblob(500) FROM n");
+    std::filesystem::copy(whole, killed);
+    database.run("ROLLBACK");
+  }
+  ASSERT_TRUE(std::filesystem::exists(killed / "run.db-journal"));
+  EXPECT_EQ(tests::contents(killed), expected);
+}
+
 TEST(Record, MissingForeignAndDamagedFilesGetOneLine) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "a";
