@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "evolve/search/offspring.h"
+#include "evolve/search/origins.h"
 #include "evolve/search/population_json.h"
 #include "evolve/search/quality_map.h"
 #include "metamorph/threads.h"
@@ -80,7 +81,7 @@ class MapElites : public Search {
     std::map<int, double> worth;
     for (const auto& [niche, elite] : elites_) worth[niche] = elite.quality;
     told.rows = map_.rows(brood_.state.generation, worth, static_cast<int>(entries.size()));
-    told.rows.push_back(origin_rows(brood_, entered, qualities));
+    told.rows.push_back(origin_rows(brood_.state, qualities, brood_.parents, entered));
     told.rows.push_back(std::move(rows));
     breed(qualities);
     return told;
@@ -88,7 +89,7 @@ class MapElites : public Search {
 
   std::vector<Table> tables() const override {
     std::vector<Table> tables = map_.tables();
-    tables.push_back(origins_table);
+    tables.push_back(origins_table(true));
     tables.push_back(elites_table);
     return tables;
   }

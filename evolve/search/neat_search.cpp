@@ -12,6 +12,7 @@
 
 #include "evolve/genetics/species.h"
 #include "evolve/search/offspring.h"
+#include "evolve/search/origins.h"
 #include "evolve/search/population_json.h"
 #include "metamorph/threads.h"
 #include "metamorph/variation.h"
@@ -76,7 +77,7 @@ Told NeatSearch::tell(std::span<const Evaluation> evaluations) {
     merits.push_back(geometric_mean(evaluation));
   }
   told.rows = rows_of(told.scores);
-  told.rows[origins_place] = origin_rows(merits);
+  told.rows[origins_place] = origin_rows(population_, merits, better_parents(), {});
   std::vector<Row>& changes = told.rows[changes_place];
   const auto note = [&](int id, std::string_view change) {
     changes.push_back(
@@ -120,17 +121,7 @@ std::vector<Table> NeatSearch::tables() const {
         {"best_score", Type::real},
         {"mean_score", Type::real}},
        2},
-      // Individuals by how they came to be (evolve/genetics/population.h), with a crossover or not:
-      // better than both parents were by the geometric mean of the measured objectives, or dead
-      // (0).
-      {"origins",
-       {{"generation", Type::integer},
-        {"origin", Type::text},
-        {"crossed", Type::integer},
-        {"children", Type::integer},
-        {"better", Type::integer},
-        {"dead", Type::integer}},
-       3},
+      origins_table(false),
       // In which generation a species was founded, or why it is no more.
       {"species_changes",
        {{"generation", Type::integer}, {"species", Type::integer}, {"change", Type::text}},
@@ -175,30 +166,15 @@ std::vector<std::vector<Row>> NeatSearch::rows_of(const std::vector<double>& sco
   return rows;
 }
 
-std::vector<Row> NeatSearch::origin_rows(const std::vector<double>& merits) const {
-  struct Count {
-    std::int64_t children = 0, better = 0, dead = 0;
-  };
-  std::map<std::pair<std::string_view, bool>, Count> counts;
-  const auto parent_merit = [&](std::int64_t id) {
+std::vector<double> NeatSearch::better_parents() const {
+  const auto merit = [&](std::int64_t id) {
     return id < 0 ? -1.0 : parents_[static_cast<std::size_t>(id - first_parent_)];
   };
-  for (std::size_t i = 0; i < merits.size(); ++i) {
-    const Individual& child = population_.individuals[i];
-    Count& count =
-        counts[{origin_names[static_cast<std::size_t>(child.origin)].name, child.parent_b >= 0}];
-    ++count.children;
-    count.dead += merits[i] == 0 ? 1 : 0;
-    if (child.parent_a < 0) continue;
-    count.better +=
-        merits[i] > std::max(parent_merit(child.parent_a), parent_merit(child.parent_b)) ? 1 : 0;
+  std::vector<double> better;
+  for (const Individual& child : population_.individuals) {
+    better.push_back(std::max(merit(child.parent_a), merit(child.parent_b)));
   }
-  std::vector<Row> rows;
-  for (const auto& [key, count] : counts) {
-    rows.push_back({std::int64_t{population_.generation}, std::string(key.first),
-                    std::int64_t{key.second}, count.children, count.better, count.dead});
-  }
-  return rows;
+  return better;
 }
 
 std::vector<Row> NeatSearch::gene_rows() const {

@@ -30,7 +30,7 @@ class NeatSearch : public Search {
  private:
   std::vector<std::uint8_t> measured() const;
   std::vector<std::vector<Row>> rows_of(const std::vector<double>& scores) const;
-  std::vector<Row> origin_rows(const std::vector<double>& merits) const;
+  std::vector<double> better_parents() const;  ///< by parents_; -1 without any
   std::vector<Row> gene_rows() const;
 
   NeatSettings settings_;

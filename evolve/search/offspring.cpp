@@ -1,7 +1,6 @@
 #include "evolve/search/offspring.h"
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -114,40 +113,6 @@ Brood brood_of(const nlohmann::json& json, const NeatSettings& settings, const P
                              std::to_string(problem.seed));
   }
   return brood;
-}
-
-const Table origins_table = {"origins",
-                             {{"generation", Table::Type::integer},
-                              {"origin", Table::Type::text},
-                              {"crossed", Table::Type::integer},
-                              {"children", Table::Type::integer},
-                              {"better", Table::Type::integer},
-                              {"entered", Table::Type::integer},
-                              {"dead", Table::Type::integer}},
-                             3};
-
-std::vector<Row> origin_rows(const Brood& brood, std::span<const std::uint8_t> lives_on,
-                             std::span<const double> qualities) {
-  struct Count {
-    std::int64_t children = 0, better = 0, entered = 0, dead = 0;
-  };
-  std::map<std::pair<std::string_view, bool>, Count> counts;
-  for (std::size_t i = 0; i < brood.state.individuals.size(); ++i) {
-    const Individual& child = brood.state.individuals[i];
-    Count& count =
-        counts[{origin_names[static_cast<std::size_t>(child.origin)].name, child.parent_b >= 0}];
-    ++count.children;
-    count.better += child.parent_a >= 0 && qualities[i] > brood.parents[i] ? 1 : 0;
-    count.entered += lives_on[i] != 0 ? 1 : 0;
-    count.dead += qualities[i] == 0 ? 1 : 0;
-  }
-  std::vector<Row> rows;
-  for (const auto& [key, count] : counts) {
-    rows.push_back({std::int64_t{brood.state.generation}, std::string(key.first),
-                    std::int64_t{key.second}, count.children, count.better, count.entered,
-                    count.dead});
-  }
-  return rows;
 }
 
 }  // namespace metamorph::evolve

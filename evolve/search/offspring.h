@@ -55,10 +55,4 @@ void check_told(std::span<const Evaluation> evaluations, std::size_t individuals
 nlohmann::json to_json(const Brood& brood);
 Brood brood_of(const nlohmann::json& json, const NeatSettings& settings, const Problem& problem);
 
-/// Individuals of a brood by how they came to be: how many there were, were better than both
-/// parents, lived on, had no quality.
-extern const Table origins_table;
-std::vector<Row> origin_rows(const Brood& brood, std::span<const std::uint8_t> lives_on,
-                             std::span<const double> qualities);
-
 }  // namespace metamorph::evolve

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "evolve/search/offspring.h"
+#include "evolve/search/origins.h"
 #include "evolve/search/population_json.h"
 #include "metamorph/threads.h"
 
@@ -89,7 +90,7 @@ Told PoolSearch::tell(std::span<const Evaluation> evaluations) {
     ++entered;
   }
   told.rows = survival_->rows(brood_.state.generation, pool_, children, entered);
-  told.rows.push_back(origin_rows(brood_, lives_on, qualities));
+  told.rows.push_back(origin_rows(brood_.state, qualities, brood_.parents, lives_on));
   std::vector<Row>& living = told.rows.emplace_back();
   for (std::size_t i = 0; i < pool_.size(); ++i) {
     living.push_back({std::int64_t{brood_.state.generation}, static_cast<std::int64_t>(i),
@@ -117,7 +118,7 @@ void PoolSearch::breed() {
 
 std::vector<Table> PoolSearch::tables() const {
   std::vector<Table> tables = survival_->tables();
-  tables.push_back(origins_table);
+  tables.push_back(origins_table(true));
   tables.push_back(pool_table);
   return tables;
 }
