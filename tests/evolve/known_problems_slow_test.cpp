@@ -89,10 +89,13 @@ TEST(KnownProblems, DoublePoleWithVelocities) {
   EXPECT_LE(found.mean, 7500);
 }
 
+/// Published, for this problem; the others have 150.
+constexpr int population_without_velocities = 1000;
+
 /// The best of each generation has to hold the poles for long and from 200 of 625 starts.
 Attempt hold_without_velocities(testing::PoleSenses senses, int cap, std::uint64_t seed) {
   return testing::attempt(
-      setup_of(testing::input_count(senses), 1, 150, seed), cap,
+      setup_of(testing::input_count(senses), 1, population_without_velocities, seed), cap,
       [&](const std::vector<core::Network>& networks, std::vector<Evaluation>& told) {
         std::size_t best = 0;
         for (std::size_t i = 0; i < networks.size(); ++i) {
