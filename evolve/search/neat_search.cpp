@@ -121,6 +121,7 @@ std::vector<Table> NeatSearch::tables() const {
         {"best_score", Type::real},
         {"mean_score", Type::real}},
        2},
+      // Better, and dead (0), by the geometric mean of the measured objectives.
       origins_table(false),
       // In which generation a species was founded, or why it is no more.
       {"species_changes",

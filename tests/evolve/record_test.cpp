@@ -311,8 +311,7 @@ TEST(Record, CanBeReadWhereItsWriterWasKilledHalfWay) {
   run_whole(whole, tiny_experiment("simple", 3));
   const auto expected = tests::contents(whole);
   {
-    // Copied while a transaction has written over pages of the file that only its journal still
-    // has.
+    // Copied while a transaction has written over pages that only its journal still has.
     Database database(whole / "run.db", Database::Mode::write);
     database.run(
         "PRAGMA cache_size = 1; BEGIN; DELETE FROM individuals; DELETE FROM run;"
