@@ -36,6 +36,7 @@ libcli11-dev         header:CLI/CLI.hpp
 libtomlplusplus-dev  header:toml++/toml.h
 nlohmann-json3-dev   header:nlohmann/json.hpp
 libsqlite3-dev       header:sqlite3.h
+libxxhash-dev        header:xxhash.h
 libcairo2-dev        header:cairo/cairo.h,cairo.h'
 needs_of_tests='
 libgtest-dev         header:gtest/gtest.h

@@ -46,10 +46,15 @@ void handle_signals() {
   action.sa_handler = on_signal;
   sigemptyset(&action.sa_mask);
   action.sa_flags = SA_RESTART;
-  for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
-  // A file-size limit shall be a fault of the record with its own line, not the end of the program.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before{};
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // nohup stays nohup
+  }
+  // A file-size limit shall be a fault of the record with its own line, and whoever no longer reads
+  // the progress is no reason to stop.
   action.sa_handler = SIG_IGN;
-  sigaction(SIGXFSZ, &action, nullptr);
+  for (const int signal : {SIGXFSZ, SIGPIPE}) sigaction(signal, &action, nullptr);
 }
 
 std::vector<Override> overrides_of(const Arguments& given) {
@@ -146,6 +151,7 @@ void evolve(const Arguments& given) {
                checked.links, checked.renewals, checked.developments);
   }
   const std::string directory = record->directory().string();
+  record->close();  // before anything is promised
   if (summary.interrupted) {
     fmt::print("stopped after {} generations; go on with: metamorph evolve --resume {}\n",
                summary.generations_done, directory);

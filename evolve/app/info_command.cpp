@@ -164,12 +164,17 @@ void add_info_command(CLI::App& app) {
   struct Arguments {
     std::string run;
     bool json = false;
+    bool verify = false;
   };
   auto given = std::make_shared<Arguments>();
   command->add_option("RUN", given->run, "directory of a run, or its run.db")->required();
   command->add_flag("--json", given->json, "one JSON object instead");
+  command->add_flag("--verify", given->verify,
+                    "compare the whole record with its digests first, and look through the file's "
+                    "pages; info, export and render compare what they read, resume and audit all");
   command->callback([given] {
     const RunReader run(given->run);
+    if (given->verify) run.verify();
     (given->json ? print_json : print_text)(run, run.experiment());
   });
 }

@@ -214,6 +214,7 @@ DeviationRange range_of(std::vector<double> deviations) {
 
 RunAudit audit(const RunReader& run, const AuditOptions& options,
                const std::function<void(int, int)>& progress) {
+  run.verify();
   const Experiment experiment = run.experiment();
   RunAudit result;
   std::vector<Champion> champions = distinct_champions(run, options);

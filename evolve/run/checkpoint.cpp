@@ -8,18 +8,18 @@
 #include <string_view>
 
 #include "evolve/files/input_error.h"
+#include "evolve/run/table_digest.h"
 #include "evolve/search/population_json.h"
 
 namespace metamorph::evolve {
 namespace {
 
-constexpr std::string_view mark = "metachk3";
+constexpr std::string_view mark = "metachk4";
 constexpr std::size_t checksum_size = 8;
 
-/// FNV-1a, most significant byte first: tells damage, not malice.
+/// Most significant byte first.
 std::array<std::uint8_t, checksum_size> checksum(std::span<const std::uint8_t> bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 0x100000001b3u;
+  const std::uint64_t hash = hash_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   std::array<std::uint8_t, checksum_size> result;
   for (std::size_t i = 0; i < checksum_size; ++i) {
     result[i] = static_cast<std::uint8_t>(hash >> (8 * (checksum_size - 1 - i)));
@@ -32,10 +32,11 @@ std::array<std::uint8_t, checksum_size> checksum(std::span<const std::uint8_t> b
 // The bindings name every field: a new one does not compile before it is thought of here.
 
 std::vector<std::uint8_t> encode(const Checkpoint& checkpoint) {
-  const auto& [generation, search, best] = checkpoint;
+  const auto& [generation, search, best, chain] = checkpoint;
   const auto& [best_generation, individual, eq6, score, distances, genome] = best;
   const std::vector<std::uint8_t> fields =
       nlohmann::json::to_cbor({{"generation", generation},
+                               {"chain", chain},
                                {"search", nlohmann::json::binary(search)},
                                {"best",
                                 {{"generation", best_generation},
@@ -68,9 +69,10 @@ Checkpoint decode(std::span<const std::uint8_t> bytes, const std::string& source
   try {
     const nlohmann::json json = nlohmann::json::from_cbor(fields.begin(), fields.end());
     Checkpoint checkpoint;
-    auto& [generation, search, best] = checkpoint;
+    auto& [generation, search, best, chain] = checkpoint;
     auto& [best_generation, individual, eq6, score, distances, genome] = best;
     json.at("generation").get_to(generation);
+    json.at("chain").get_to(chain);
     search = json.at("search").get_binary();
     const nlohmann::json& of_best = json.at("best");
     of_best.at("generation").get_to(best_generation);

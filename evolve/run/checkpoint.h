@@ -27,6 +27,7 @@ struct Checkpoint {
   int generation = 0;                ///< about to be evaluated
   std::vector<std::uint8_t> search;  ///< Search::save()
   BestEver best;
+  std::uint64_t chain = 0;  ///< of the digests of all that the record holds (run/integrity.h)
   bool operator==(const Checkpoint&) const = default;
 };
 

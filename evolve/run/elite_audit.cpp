@@ -60,6 +60,7 @@ std::vector<Genome> read_elites(const RunReader& run, MapAudit& audited) {
 
 MapAudit audit_elites(const RunReader& run, const EliteAuditOptions& options,
                       const std::function<void(int, int)>& progress) {
+  run.verify();
   const Experiment experiment = run.experiment();
   MapAudit audited;
   std::vector<core::Network> networks;

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -55,10 +56,10 @@ std::string record_schema() {
 }
 
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory) {
-  const std::filesystem::path file = directory / "run.lock";
-  descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  file_ = directory / lock_file;
+  descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (descriptor_ < 0) {
-    throw InputError(fmt::format("{}: cannot be written: {}", file.string(),
+    throw InputError(fmt::format("{}: cannot be written: {}", file_.string(),
                                  std::error_code(errno, std::generic_category()).message()));
   }
   if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
@@ -68,6 +69,12 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory) {
   }
 }
 
+bool DirectoryLock::is_gone() const {
+  struct stat held{}, there{};
+  return fstat(descriptor_, &held) != 0 || stat(file_.c_str(), &there) != 0 ||
+         held.st_dev != there.st_dev || held.st_ino != there.st_ino;
+}
+
 DirectoryLock::~DirectoryLock() { close(descriptor_); }
 
 Record::Record(const std::filesystem::path& directory) : directory_(directory) {}
@@ -75,8 +82,7 @@ Record::Record(const std::filesystem::path& directory) : directory_(directory) {
 Record::Record(const std::filesystem::path& directory, const Experiment& experiment, int threads)
     : directory_(make_directory(directory)), lock_(std::make_unique<DirectoryLock>(directory)) {
   database_ = std::make_unique<Database>(directory / record_file, Database::Mode::create);
-  // Readers may look on while the run writes.
-  database_->run("PRAGMA journal_mode = WAL");
+  // Before there is a journal beside it: the file by itself always holds the experiment.
   Transaction transaction(*database_);
   database_->run(record_schema());
   Statement insert(*database_, "INSERT INTO run VALUES (?, ?)");
@@ -91,6 +97,7 @@ Record::Record(const std::filesystem::path& directory, const Experiment& experim
   }
   start_session(threads);
   transaction.commit();
+  database_->run("PRAGMA journal_mode = WAL");  // readers may look on while the run writes
 }
 
 std::unique_ptr<Record> Record::resume(const std::filesystem::path& directory, int threads) {
@@ -107,15 +114,9 @@ std::unique_ptr<Record> Record::resume(const std::filesystem::path& directory, i
     tables.step();
     if (tables.integer(0) == 0) {
       throw InputError(
-          fmt::format("{}: holds no experiment: the run was stopped before it began "
-                      "(delete its directory), or this is no record of a run",
-                      database.file().string()));
-    }
-  }
-  {
-    Statement check(database, "PRAGMA quick_check(1)");
-    if (!check.step() || check.text(0) != "ok") {
-      throw InputError(fmt::format("{}: damaged: {}", database.file().string(), check.text(0)));
+          fmt::format("{}: holds no experiment: this is no record of a run, or was copied without "
+                      "the {}-wal or {}-journal that stood beside it",
+                      database.file().string(), record_file, record_file));
     }
   }
   {
@@ -125,6 +126,7 @@ std::unique_ptr<Record> Record::resume(const std::filesystem::path& directory, i
                                    format.text(0), record_format));
     }
   }
+  Integrity(database).check_all();
   database.run("PRAGMA journal_mode = WAL");
   Transaction transaction(database);
   record->start_session(threads);
@@ -133,24 +135,58 @@ std::unique_ptr<Record> Record::resume(const std::filesystem::path& directory, i
 }
 
 Record::~Record() {
-  if (database_ == nullptr) return;
   try {
-    write_last_duration();
-    // A finished run is one plain file that can be copied and read from read-only places. Where a
-    // reader keeps it open the journal stays, and nothing is lost.
-    database_->run("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE");
+    close();
   } catch (const InputError&) {
   }
 }
 
+void Record::close() {
+  if (database_ == nullptr) return;
+  try {
+    finish();
+  } catch (...) {
+    database_.reset();
+    throw;
+  }
+  database_.reset();
+}
+
+void Record::finish() {
+  check_place();
+  Transaction transaction(*database_);
+  write_last_duration();
+  transaction.commit();
+  // A finished run is one plain file that can be copied and read from read-only places.
+  database_->leave_journal();
+  check_place();
+}
+
+void Record::check_place() {
+  if (database_->has_moved()) {
+    throw InputError(
+        fmt::format("{}: was deleted, moved or replaced while the run was being written: what is "
+                    "recorded is not where it should be",
+                    database_->file().string()));
+  }
+  if (lock_->is_gone()) {
+    throw InputError(
+        fmt::format("{}: {} was deleted or replaced while the run was being written: another "
+                    "program may write it too",
+                    directory_.string(), lock_file));
+  }
+}
+
 void Record::start_session(int threads) {
-  Statement insert(*database_, "INSERT INTO sessions VALUES (?, ?, ?)");
+  TableDigest digest;
+  Statement insert(*database_, "INSERT INTO sessions VALUES (?, ?, ?)", &digest);
   Statement count(*database_, "SELECT coalesce(max(session), 0) + 1 FROM sessions");
   count.step();
   const std::int64_t session = count.integer(0);
   for (const auto& [key, value] : session_facts(threads)) {
     insert.bind(session).bind(key).bind(value).run();
   }
+  write_digests(*database_, Ledger::session, session, {{"sessions", digest}});
 }
 
 Experiment Record::experiment() {
@@ -164,8 +200,43 @@ Experiment Record::experiment() {
 void Record::change_generations(int generations) {
   Experiment changed = experiment();
   changed.generations = generations;
+  Transaction transaction(*database_);
   Statement update(*database_, "UPDATE run SET value = ? WHERE key = 'configuration'");
   update.bind(to_toml(changed)).run();
+  if (is_framed(*database_)) {
+    write_digests(*database_, Ledger::chained, before_generations, frame_digests(*database_));
+    chain_ = chain_of(*database_);
+    Statement select(*database_, "SELECT state FROM checkpoint");
+    if (select.step()) {
+      Checkpoint checkpoint = decode(select.blob(0), database_->file().string());
+      checkpoint.chain = chain_;
+      write_checkpoint(checkpoint);
+    }
+  }
+  transaction.commit();
+}
+
+void Record::write_checkpoint(const Checkpoint& checkpoint) {
+  Statement replace(*database_, "INSERT OR REPLACE INTO checkpoint VALUES (1, ?, ?)");
+  replace.bind(checkpoint.generation).bind_blob(encode(checkpoint)).run();
+}
+
+/// Makes the tables of the search, and the digests of what stands before all generations.
+void Record::frame(const Search& search) {
+  Transaction transaction(*database_);
+  if (!is_framed(*database_)) {
+    for (const Table& table : search.tables()) database_->run(creation_of(table));
+    write_digests(*database_, Ledger::chained, before_generations, frame_digests(*database_));
+  }
+  transaction.commit();
+  chain_ = chain_of(*database_);
+  tables_ = counted_tables(*database_);
+  for (const Table& table : search.tables()) {
+    if (std::find(tables_.begin(), tables_.end(), table.name) == tables_.end()) {
+      throw InputError(fmt::format("{}: has no table {}: expected the record of such a search",
+                                   database_->file().string(), table.name));
+    }
+  }
 }
 
 int Record::generations_done() {
@@ -176,7 +247,7 @@ int Record::generations_done() {
 
 BestEver Record::restore(Search& search) {
   const std::string source = database_->file().string();
-  for (const Table& table : search.tables()) database_->run(creation_of(table));
+  frame(search);
   const int done = generations_done();
   Statement select(*database_, "SELECT state FROM checkpoint");
   if (!select.step()) {
@@ -206,39 +277,57 @@ BestEver Record::restore(Search& search) {
 void Record::write(const GenerationResult& result, const PhaseSeconds& seconds,
                    const Search& search, const BestEver& best) {
   Stopwatch watch;
+  check_place();
+  written_.clear();
+  for (const std::string& table : tables_) written_[table];  // of no rows, too
   Transaction transaction(*database_);
   write_last_duration();
   write_individuals(result);
   write_summary(result);
   write_search(result, search);
-  Statement timing(*database_, "INSERT INTO timings VALUES (?, ?, ?)");
-  const auto values = seconds.values();
-  for (std::size_t i = 0; i + 1 < values.size(); ++i) {  // the last phase is this one
-    timing.bind(result.generation).bind(PhaseSeconds::names[i]).bind(values[i]).run();
-  }
-  Statement work(*database_, "INSERT INTO work VALUES (?, ?, ?, ?, ?)");
-  work.bind(result.generation).bind(result.work.individuals).bind(result.work.developed);
-  work.bind(result.work.bodies).bind(result.work.simulated).run();
-  Statement checkpoint(*database_, "INSERT OR REPLACE INTO checkpoint VALUES (1, ?, ?)");
-  checkpoint.bind(search.generation());
-  checkpoint.bind_blob(encode({search.generation(), search.save(), best})).run();
+  write_clock(result, seconds);
+  write_digests(*database_, Ledger::chained, result.generation, written_);
+  const std::uint64_t chain = chained(chain_, result.generation, written_);
+  write_checkpoint({search.generation(), search.save(), best, chain});
   transaction.commit();
+  chain_ = chain;
   last_generation_ = result.generation;
   last_duration_ = watch.lap();
 }
 
+Statement Record::insertion(const std::string& table, const std::string& sql) {
+  return Statement(*database_, sql, &written_[table]);
+}
+
+/// What no other run of the experiment has alike.
+void Record::write_clock(const GenerationResult& result, const PhaseSeconds& seconds) {
+  last_timings_ = {};
+  Statement timing(*database_, "INSERT INTO timings VALUES (?, ?, ?)", &last_timings_);
+  const auto values = seconds.values();
+  for (std::size_t i = 0; i + 1 < values.size(); ++i) {  // the last phase is writing this
+    timing.bind(result.generation).bind(PhaseSeconds::names[i]).bind(values[i]).run();
+  }
+  TableDigest digest;
+  Statement work(*database_, "INSERT INTO work VALUES (?, ?, ?, ?, ?)", &digest);
+  work.bind(result.generation).bind(result.work.individuals).bind(result.work.developed);
+  work.bind(result.work.bodies).bind(result.work.simulated).run();
+  write_digests(*database_, Ledger::session, result.generation,
+                {{"timings", last_timings_}, {"work", digest}});
+}
+
 void Record::write_last_duration() {
   if (last_generation_ < 0) return;
-  Statement timing(*database_, "INSERT INTO timings VALUES (?, ?, ?)");
+  Statement timing(*database_, "INSERT INTO timings VALUES (?, ?, ?)", &last_timings_);
   timing.bind(last_generation_).bind(PhaseSeconds::names.back()).bind(last_duration_).run();
+  write_digests(*database_, Ledger::session, last_generation_, {{"timings", last_timings_}});
   last_generation_ = -1;
 }
 
 void Record::write_individuals(const GenerationResult& result) {
-  Statement individual(*database_,
-                       "INSERT INTO individuals VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-  Statement row(*database_, outcome_insertion());
-  Statement described(*database_, descriptor_insertion());
+  Statement individual = insertion(
+      "individuals", "INSERT INTO individuals VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement row = insertion("outcomes", outcome_insertion());
+  Statement described = insertion("descriptors", descriptor_insertion());
   for (std::size_t i = 0; i < result.individuals.size(); ++i) {
     const Lineage& who = result.asked.lineage[i];
     const Genome& genome = result.asked.genomes[i];
@@ -266,14 +355,17 @@ void Record::write_individuals(const GenerationResult& result) {
 void Record::write_summary(const GenerationResult& result) {
   const std::size_t best = result.champion;
   const std::int64_t champion = result.asked.lineage[best].id;
-  Statement generation(*database_, "INSERT INTO generations VALUES (?, ?, ?, ?, ?, ?)");
+  Statement generation =
+      insertion("generations", "INSERT INTO generations VALUES (?, ?, ?, ?, ?, ?)");
   generation.bind(result.generation).bind(champion).bind(result.eq6[best]);
   generation.bind(mean(result.eq6))
       .bind(*std::max_element(result.scores.begin(), result.scores.end()));
   generation.bind(mean(result.scores)).run();
 
-  Statement trial_row(*database_, "INSERT INTO generation_trials VALUES (?, ?, ?, ?, ?, ?)");
-  Statement status_row(*database_, "INSERT INTO status_counts VALUES (?, ?, ?, ?)");
+  Statement trial_row =
+      insertion("generation_trials", "INSERT INTO generation_trials VALUES (?, ?, ?, ?, ?, ?)");
+  Statement status_row =
+      insertion("status_counts", "INSERT INTO status_counts VALUES (?, ?, ?, ?)");
   for (std::size_t t = 0; t < result.individuals[best].trials.size(); ++t) {
     std::vector<double> distances;
     for (const Evaluated& one : result.individuals) {
@@ -291,7 +383,8 @@ void Record::write_summary(const GenerationResult& result) {
       status_row.bind(result.generation).bind(trial).bind(core::name(status)).bind(count).run();
     }
   }
-  Statement champion_row(*database_, "INSERT INTO champions VALUES (?, ?, ?, ?, ?, ?)");
+  Statement champion_row =
+      insertion("champions", "INSERT INTO champions VALUES (?, ?, ?, ?, ?, ?)");
   champion_row.bind(result.generation).bind(static_cast<int>(best)).bind(champion);
   champion_row.bind(result.eq6[best]).bind(result.scores[best]);
   champion_row.bind(genome_text(result.asked.genomes[best])).run();
@@ -300,7 +393,7 @@ void Record::write_summary(const GenerationResult& result) {
 void Record::write_search(const GenerationResult& result, const Search& search) {
   const std::vector<Table> tables = search.tables();
   for (std::size_t t = 0; t < tables.size(); ++t) {
-    write_rows(*database_, tables[t], result.search_rows[t]);
+    write_rows(*database_, tables[t], result.search_rows[t], written_[tables[t].name]);
   }
 }
 

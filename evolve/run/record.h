@@ -6,6 +6,7 @@
 #include "evolve/experiment/experiment.h"
 #include "evolve/run/checkpoint.h"
 #include "evolve/run/generation.h"
+#include "evolve/run/integrity.h"
 #include "evolve/run/sqlite.h"
 
 namespace metamorph::evolve {
@@ -18,12 +19,18 @@ class DirectoryLock {
   DirectoryLock(const DirectoryLock&) = delete;
   DirectoryLock& operator=(const DirectoryLock&) = delete;
 
+  /// True if the file that is locked is no longer the one that others would find.
+  bool is_gone() const;
+
  private:
+  std::filesystem::path file_;
   int descriptor_;
 };
 
 /// The record of a run being written: run.db in the run's directory (record_schema.h). One
-/// transaction per generation. All failures (no room, no rights, damage) throw InputError.
+/// transaction per generation, with digests of all its rows (integrity.h). All failures (no room,
+/// no rights, damage, a file that is not where it was) throw InputError. RECORD.md says what is
+/// promised.
 class Record {
  public:
   /// Makes the directory and an empty record in it. Refuses a directory that is not empty.
@@ -32,7 +39,7 @@ class Record {
   /// Opens a run to go on with it, after checking that it is whole.
   static std::unique_ptr<Record> resume(const std::filesystem::path& directory, int threads);
 
-  ~Record();
+  ~Record();  ///< as close(), but for failures, of which it says nothing
   Record(const Record&) = delete;
   Record& operator=(const Record&) = delete;
 
@@ -50,11 +57,21 @@ class Record {
   void write(const GenerationResult& result, const PhaseSeconds& seconds, const Search& search,
              const BestEver& best);
 
+  /// Makes the record one plain file that is safe on the disk. Nothing can be done with it after.
+  void close();
+
   const std::filesystem::path& directory() const { return directory_; }
 
  private:
   explicit Record(const std::filesystem::path& directory);  // of an existing run
   void start_session(int threads);
+  void frame(const Search& search);
+  void check_place();
+  /// A statement that writes rows of the generation, which its digest counts.
+  Statement insertion(const std::string& table, const std::string& sql);
+  void write_checkpoint(const Checkpoint& checkpoint);
+  void write_clock(const GenerationResult& result, const PhaseSeconds& seconds);
+  void finish();
   void write_individuals(const GenerationResult& result);
   void write_summary(const GenerationResult& result);
   void write_search(const GenerationResult& result, const Search& search);
@@ -63,6 +80,10 @@ class Record {
   std::filesystem::path directory_;
   std::unique_ptr<DirectoryLock> lock_;
   std::unique_ptr<Database> database_;
+  std::vector<std::string> tables_;  ///< whose rows are counted in every generation
+  Digests written_;                  ///< in this generation
+  std::uint64_t chain_ = 0;          ///< of all digests so far
+  TableDigest last_timings_;         ///< of last_generation_
   int last_generation_ = -1;  ///< whose writing took last_duration_ seconds, not yet recorded
   double last_duration_ = 0;
 };

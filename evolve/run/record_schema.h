@@ -4,11 +4,13 @@
 
 namespace metamorph::evolve {
 
-inline constexpr const char* record_format = "metamorph-run/3";
+inline constexpr const char* record_format = "metamorph-run/4";
 inline constexpr const char* record_file = "run.db";
+inline constexpr const char* lock_file = "run.lock";
 
 /// The tables of run.db. What depends on wall-clock, machine or interruptions stands in `sessions`,
-/// `timings` and `work` alone: every other table is the same, bit for bit, for one configuration.
+/// `timings`, `work` and `session_digests` alone: every other table is the same, bit for bit, for
+/// one configuration.
 ///
 /// A search has tables of its own beside these (Search::tables()).
 ///
@@ -54,6 +56,13 @@ CREATE TABLE checkpoint (only INTEGER PRIMARY KEY CHECK (only = 1), generation I
   state BLOB NOT NULL);
 CREATE TABLE timings (generation INTEGER, phase TEXT, seconds REAL NOT NULL,
   PRIMARY KEY (generation, phase)) WITHOUT ROWID;
+-- What the rows of every table amount to that were written in a generation (run/integrity.h); -1: of
+-- the experiment and of the tables' definitions. Those of tables that tell of wall-clock and machine
+-- stand apart, by generation or session.
+CREATE TABLE digests (number INTEGER, "table" TEXT, rows INTEGER NOT NULL, sum INTEGER NOT NULL,
+  PRIMARY KEY (number, "table")) WITHOUT ROWID;
+CREATE TABLE session_digests (number INTEGER, "table" TEXT, rows INTEGER NOT NULL,
+  sum INTEGER NOT NULL, PRIMARY KEY (number, "table")) WITHOUT ROWID;
 -- What figures 10 to 18, 20 and 22 are drawn from.
 CREATE VIEW champion_outcomes AS
   SELECT c.generation, c.individual, c.eq6, t.name AS trial_name, t.stage, t.scene, o.*

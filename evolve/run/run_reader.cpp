@@ -7,6 +7,7 @@
 #include "evolve/experiment/experiment_file.h"
 #include "evolve/files/genome_file.h"
 #include "evolve/files/input_error.h"
+#include "evolve/run/integrity.h"
 #include "evolve/run/record_schema.h"
 #include "evolve/run/sqlite.h"
 
@@ -29,6 +30,18 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
+/// One state of the record for as long as something is read from it, after its frame was checked.
+class RunReader::Reading {
+ public:
+  explicit Reading(const RunReader& run)
+      : snapshot_(*run.database_), generations_(run.integrity_->check_frame()) {}
+  int generations() const { return generations_; }
+
+ private:
+  Snapshot snapshot_;
+  int generations_;
+};
+
 RunReader::RunReader(const std::filesystem::path& run)
     : file_(record_of(run)), database_(std::make_unique<Database>(file_, Database::Mode::read)) {
   Statement known(*database_, "SELECT count(*) FROM sqlite_master WHERE name = 'run'");
@@ -43,11 +56,18 @@ RunReader::RunReader(const std::filesystem::path& run)
         fmt::format("{}: format = \"{}\": expected \"{}\", the record of a run of this version",
                     file_.string(), format, record_format));
   }
+  integrity_ = std::make_unique<Integrity>(*database_);
 }
 
 RunReader::~RunReader() = default;
 
+void RunReader::verify() const {
+  const Snapshot snapshot(*database_);
+  integrity_->check_all();
+}
+
 Experiment RunReader::experiment() const {
+  const Reading reading(*this);
   Statement select(*database_, "SELECT value FROM run WHERE key = 'configuration'");
   if (!select.step()) {
     throw InputError(fmt::format("{}: holds no configuration", file_.string()));
@@ -55,27 +75,40 @@ Experiment RunReader::experiment() const {
   return parse_experiment(select.text(0), file_.string() + " (configuration)");
 }
 
-int RunReader::generations_done() const {
-  Statement select(*database_, "SELECT count(*) FROM generations");
-  select.step();
-  return static_cast<int>(select.integer(0));
-}
+int RunReader::generations_done() const { return Reading(*this).generations(); }
 
 Champion RunReader::champion(int generation) const {
-  return read_champion(fmt::format("WHERE generation = {}", generation));
+  const Reading reading(*this);
+  if (generation < 0 || generation >= reading.generations()) {
+    throw InputError(fmt::format("{}: no such champion: expected a generation below {}",
+                                 file_.string(), reading.generations()));
+  }
+  return read_champion(generation);
 }
 
 Champion RunReader::best() const {
-  return read_champion("ORDER BY eq6 DESC, score DESC, generation LIMIT 1");
+  const Reading reading(*this);
+  integrity_->check_table("champions");
+  Statement best(*database_,
+                 "SELECT generation FROM champions ORDER BY eq6 DESC, score DESC, generation");
+  if (!best.step()) {
+    throw InputError(
+        fmt::format("{}: no champion yet: expected a generation at least", file_.string()));
+  }
+  return read_champion(static_cast<int>(best.integer(0)));
 }
 
-Champion RunReader::read_champion(const std::string& sql_end) const {
-  Statement select(
-      *database_,
-      "SELECT generation, individual, eq6, score, genome, position FROM champions " + sql_end);
-  if (!select.step()) {
-    throw InputError(fmt::format("{}: no such champion: expected a generation below {}",
-                                 file_.string(), generations_done()));
+Champion RunReader::read_champion(int generation) const {
+  for (const char* table : {"champions", "outcomes"}) {
+    integrity_->check_generation(table, generation);
+  }
+  Statement select(*database_,
+                   "SELECT generation, individual, eq6, score, genome, position FROM champions "
+                   "WHERE generation = ?");
+  select.bind(generation);
+  if (!select.step()) {  // it was there a moment ago
+    throw InputError(
+        fmt::format("{}: damaged: table champions, generation {}", file_.string(), generation));
   }
   Champion champion;
   champion.generation = static_cast<int>(select.integer(0));
@@ -97,6 +130,8 @@ Champion RunReader::read_champion(const std::string& sql_end) const {
 }
 
 std::map<std::string, std::int64_t> RunReader::status_counts() const {
+  const Reading reading(*this);
+  integrity_->check_table("status_counts");
   Statement select(*database_, "SELECT status, sum(count) FROM status_counts GROUP BY status");
   std::map<std::string, std::int64_t> counts;
   while (select.step()) counts[select.text(0)] = select.integer(1);
@@ -104,6 +139,8 @@ std::map<std::string, std::int64_t> RunReader::status_counts() const {
 }
 
 std::vector<std::pair<std::string, double>> RunReader::phase_seconds() const {
+  const Reading reading(*this);
+  integrity_->check_table("timings");
   Statement select(*database_,
                    "SELECT phase, sum(seconds) FROM timings GROUP BY phase ORDER BY 2 DESC");
   std::vector<std::pair<std::string, double>> phases;
@@ -112,6 +149,8 @@ std::vector<std::pair<std::string, double>> RunReader::phase_seconds() const {
 }
 
 std::vector<std::pair<std::string, std::string>> RunReader::last_session() const {
+  const Reading reading(*this);
+  integrity_->check_table("sessions");
   Statement select(*database_,
                    "SELECT key, value FROM sessions WHERE session = (SELECT max(session) FROM "
                    "sessions) ORDER BY key");
@@ -121,18 +160,24 @@ std::vector<std::pair<std::string, std::string>> RunReader::last_session() const
 }
 
 EvaluationWork RunReader::work() const {
+  const Reading reading(*this);
+  integrity_->check_table("work");
   Statement sum(*database_,
                 "SELECT sum(individuals), sum(developed), sum(bodies), sum(simulated) FROM work");
   sum.step();
   return {sum.integer(0), sum.integer(1), sum.integer(2), sum.integer(3)};
 }
 
-SearchHealth RunReader::health() const { return search_health(*database_); }
+SearchHealth RunReader::health() const {
+  const Reading reading(*this);
+  return search_health(*database_, *integrity_);
+}
 
 std::vector<std::string> RunReader::tables() const {
+  const Reading reading(*this);
   Statement select(*database_,
-                   "SELECT name FROM sqlite_master WHERE type IN ('table', 'view') AND name != "
-                   "'checkpoint' ORDER BY name");
+                   "SELECT name FROM sqlite_master WHERE type IN ('table', 'view') AND name NOT IN "
+                   "('checkpoint', 'digests', 'session_digests') ORDER BY name");
   std::vector<std::string> names;
   while (select.step()) names.push_back(select.text(0));
   return names;
@@ -140,11 +185,13 @@ std::vector<std::string> RunReader::tables() const {
 
 void RunReader::write_csv(const std::string& table,
                           const std::function<void(std::string_view)>& write) const {
+  const Reading reading(*this);
   const std::vector<std::string> known = tables();
   if (std::find(known.begin(), known.end(), table) == known.end()) {
     throw InputError(fmt::format("{}: table {}: expected one of {}", file_.string(), table,
                                  fmt::join(known, ", ")));
   }
+  integrity_->check_table(table);
   Statement select(*database_, fmt::format("SELECT * FROM \"{}\"", table));
   std::string line;
   for (int c = 0; c < select.columns(); ++c) {

@@ -17,6 +17,7 @@
 namespace metamorph::evolve {
 
 class Database;
+class Integrity;
 
 /// The best individual by eq 6 of one generation, as recorded.
 struct Champion {
@@ -29,12 +30,16 @@ struct Champion {
   std::vector<std::string> statuses;  ///< [trials] "" where not run
 };
 
-/// Reads the record of a run, also while it is being written. Throws InputError.
+/// Reads the record of a run, also while it is being written. What it gives is what was written:
+/// all that it reads is compared with the record's digests (integrity.h). Throws InputError.
 class RunReader {
  public:
   /// `run` is a run's directory or its run.db.
   explicit RunReader(const std::filesystem::path& run);
   ~RunReader();
+
+  /// Compares the whole record with its digests, and looks through the pages of the file.
+  void verify() const;
 
   Experiment experiment() const;
   int generations_done() const;
@@ -56,10 +61,12 @@ class RunReader {
   const std::filesystem::path& file() const { return file_; }
 
  private:
-  Champion read_champion(const std::string& sql_end) const;
+  class Reading;
+  Champion read_champion(int generation) const;
 
   std::filesystem::path file_;
   std::unique_ptr<Database> database_;
+  std::unique_ptr<Integrity> integrity_;
 };
 
 }  // namespace metamorph::evolve

@@ -1,27 +1,41 @@
 #include "evolve/run/search_health.h"
 
-#include <string_view>
+#include <algorithm>
+#include <string>
+#include <vector>
 
+#include "evolve/run/integrity.h"
 #include "evolve/run/sqlite.h"
 
 namespace metamorph::evolve {
 namespace {
 
-bool has(Database& record, std::string_view table) {
-  Statement known(record, "SELECT count(*) FROM sqlite_master WHERE name = ?");
-  known.bind(table).step();
-  return known.integer(0) > 0;
-}
+/// Which tables there are; those that are looked at are checked.
+class Tables {
+ public:
+  Tables(Database& record, Integrity& integrity)
+      : known_(counted_tables(record)), integrity_(integrity) {}
+  bool have(const std::string& table) {
+    if (std::find(known_.begin(), known_.end(), table) == known_.end()) return false;
+    integrity_.check_table(table);
+    return true;
+  }
+
+ private:
+  std::vector<std::string> known_;
+  Integrity& integrity_;
+};
 
 }  // namespace
 
-SearchHealth search_health(Database& record) {
+SearchHealth search_health(Database& record, Integrity& integrity) {
   SearchHealth health;
-  if (has(record, "populations")) {
+  Tables tables(record, integrity);
+  if (tables.have("populations")) {
     Statement last(record, "SELECT species FROM populations ORDER BY generation DESC LIMIT 1");
     if (last.step()) health.species = last.integer(0);
   }
-  if (has(record, "species_changes")) {
+  if (tables.have("species_changes")) {
     Statement count(record, "SELECT change, count(*) FROM species_changes GROUP BY change");
     while (count.step()) {
       if (count.text(0) == "founded") {
@@ -31,7 +45,7 @@ SearchHealth search_health(Database& record) {
       }
     }
   }
-  if (has(record, "origins")) {
+  if (tables.have("origins")) {
     Statement sum(record,
                   "SELECT origin, sum(children), sum(better), sum(dead) FROM origins WHERE "
                   "generation > (SELECT max(generation) FROM origins) - ? GROUP BY origin "
@@ -41,23 +55,23 @@ SearchHealth search_health(Database& record) {
       health.origins.push_back({sum.text(0), sum.integer(1), sum.integer(2), sum.integer(3)});
     }
   }
-  if (has(record, "archive_sizes")) {
+  if (tables.have("archive_sizes")) {
     Statement last(record,
                    "SELECT archive_size, archive_threshold, (SELECT sum(archive_copies) FROM "
                    "archive_sizes) FROM archive_sizes ORDER BY generation DESC LIMIT 1");
     if (last.step()) health.archive = {last.integer(0), last.integer(2), last.real(1)};
   }
-  if (has(record, "qd")) {
+  if (tables.have("qd")) {
     Statement last(record,
                    "SELECT filled, niches, qd_score FROM qd ORDER BY generation DESC LIMIT 1");
     if (last.step()) health.map = {last.integer(0), last.integer(1), last.real(2)};
   }
-  if (has(record, "fronts")) {
+  if (tables.have("fronts")) {
     Statement last(record,
                    "SELECT front_size, hypervolume FROM fronts ORDER BY generation DESC LIMIT 1");
     if (last.step()) health.front = {last.integer(0), last.real(1)};
   }
-  if (has(record, "behaviour_shares")) {
+  if (tables.have("behaviour_shares")) {
     Statement last(record,
                    "SELECT trial, share FROM behaviour_shares WHERE generation = (SELECT "
                    "max(generation) FROM behaviour_shares) ORDER BY objective");

@@ -9,6 +9,7 @@
 namespace metamorph::evolve {
 
 class Database;
+class Integrity;
 
 /// What the tables of a search say of its health. What a search has no table for stays empty.
 struct SearchHealth {
@@ -41,7 +42,7 @@ struct SearchHealth {
   static constexpr int recent = 10;  ///< generations that the children are counted over
 };
 
-/// Throws InputError.
-SearchHealth search_health(Database& record);
+/// Of tables that are what was written; throws InputError of others.
+SearchHealth search_health(Database& record, Integrity& integrity);
 
 }  // namespace metamorph::evolve

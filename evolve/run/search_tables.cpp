@@ -42,10 +42,12 @@ std::string creation_of(const Table& table) {
   return sql + fmt::format("PRIMARY KEY ({})) WITHOUT ROWID", keys_of(table));
 }
 
-void write_rows(Database& database, const Table& table, const std::vector<Row>& rows) {
+void write_rows(Database& database, const Table& table, const std::vector<Row>& rows,
+                TableDigest& digest) {
   std::string places;
   for (std::size_t c = 0; c < table.columns.size(); ++c) places += c == 0 ? "?" : ", ?";
-  Statement insert(database, fmt::format("INSERT INTO \"{}\" VALUES ({})", table.name, places));
+  Statement insert(database, fmt::format("INSERT INTO \"{}\" VALUES ({})", table.name, places),
+                   &digest);
   for (const Row& row : rows) {
     assert(row.size() == table.columns.size());
     for (const Cell& cell : row) {

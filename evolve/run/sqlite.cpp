@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "evolve/files/input_error.h"
+#include "evolve/run/table_digest.h"
 
 namespace metamorph::evolve {
 
@@ -70,7 +71,23 @@ void Database::run(const std::string& sql) {
   check(sqlite3_exec(database_, sql.c_str(), nullptr, nullptr, nullptr));
 }
 
-Statement::Statement(Database& database, std::string_view sql) : database_(database) {
+void Database::leave_journal() {
+  constexpr const char* sql = "PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE";
+  sqlite3_busy_timeout(database_, 1000);
+  const int code = sqlite3_exec(database_, sql, nullptr, nullptr, nullptr);
+  if ((code & 0xff) != SQLITE_BUSY && (code & 0xff) != SQLITE_LOCKED) check(code);
+}
+
+bool Database::has_moved() const {
+  int moved = 0;
+  return sqlite3_file_control(database_, "main", SQLITE_FCNTL_HAS_MOVED, &moved) == SQLITE_OK &&
+         moved != 0;
+}
+
+Statement::Statement(Database& database, std::string_view sql, TableDigest* digest)
+    : database_(database),
+      digest_(digest),
+      hash_(digest == nullptr ? nullptr : std::make_unique<RowHash>()) {
   database.check(sqlite3_prepare_v2(database.handle(), sql.data(), static_cast<int>(sql.size()),
                                     &statement_, nullptr));
 }
@@ -78,16 +95,19 @@ Statement::Statement(Database& database, std::string_view sql) : database_(datab
 Statement::~Statement() { sqlite3_finalize(statement_); }
 
 Statement& Statement::bind(std::int64_t value) {
+  if (hash_ != nullptr) hash_->add(value);
   database_.check(sqlite3_bind_int64(statement_, next_++, value));
   return *this;
 }
 
 Statement& Statement::bind(double value) {
+  if (hash_ != nullptr) hash_->add(value);
   database_.check(sqlite3_bind_double(statement_, next_++, value));
   return *this;
 }
 
 Statement& Statement::bind(std::string_view value) {
+  if (hash_ != nullptr) hash_->add(value);
   database_.check(sqlite3_bind_text(statement_, next_++, value.data(),
                                     static_cast<int>(value.size()), SQLITE_TRANSIENT));
   return *this;
@@ -100,6 +120,7 @@ Statement& Statement::bind_blob(std::span<const std::uint8_t> value) {
 }
 
 Statement& Statement::bind_null() {
+  if (hash_ != nullptr) hash_->add_null();
   database_.check(sqlite3_bind_null(statement_, next_++));
   return *this;
 }
@@ -116,6 +137,7 @@ bool Statement::step() {
 void Statement::run() {
   while (step()) {
   }
+  if (hash_ != nullptr) hash_->end_row(*digest_);
 }
 
 int Statement::columns() const { return sqlite3_column_count(statement_); }
@@ -128,6 +150,10 @@ bool Statement::is_null(int column) const {
 
 bool Statement::is_real(int column) const {
   return sqlite3_column_type(statement_, column) == SQLITE_FLOAT;
+}
+
+bool Statement::is_integer(int column) const {
+  return sqlite3_column_type(statement_, column) == SQLITE_INTEGER;
 }
 
 std::int64_t Statement::integer(int column) const {
@@ -147,6 +173,15 @@ std::string Statement::text(int column) const {
 std::span<const std::uint8_t> Statement::blob(int column) const {
   const auto* data = static_cast<const std::uint8_t*>(sqlite3_column_blob(statement_, column));
   return {data, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))};
+}
+
+Snapshot::Snapshot(Database& database)
+    : database_(database), open_(sqlite3_get_autocommit(database.handle()) != 0) {
+  if (open_) database_.run("BEGIN");
+}
+
+Snapshot::~Snapshot() {
+  if (open_) sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
 }
 
 Transaction::Transaction(Database& database) : database_(database) {

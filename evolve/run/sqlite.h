@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,12 +14,15 @@ struct sqlite3_stmt;
 namespace metamorph::evolve {
 
 class Database;
+class RowHash;
+struct TableDigest;
 
 /// A prepared statement. Values are bound in order with bind(); NaN is stored as NULL and read back
 /// as NaN. Every failure of SQLite throws InputError with the file and the reason in one line.
 class Statement {
  public:
-  Statement(Database& database, std::string_view sql);
+  /// What is bound to a statement with a digest counts in it, a row for every run.
+  Statement(Database& database, std::string_view sql, TableDigest* digest = nullptr);
   ~Statement();
   Statement(const Statement&) = delete;
   Statement& operator=(const Statement&) = delete;
@@ -39,6 +43,7 @@ class Statement {
   std::string name(int column) const;
   bool is_null(int column) const;
   bool is_real(int column) const;
+  bool is_integer(int column) const;
   std::int64_t integer(int column) const;
   double real(int column) const;
   std::string text(int column) const;
@@ -48,6 +53,8 @@ class Statement {
   Database& database_;
   sqlite3_stmt* statement_ = nullptr;
   int next_ = 1;  ///< parameter the next bind() sets
+  TableDigest* digest_;
+  std::unique_ptr<RowHash> hash_;  ///< of what was bound since the last run; with a digest only
 };
 
 /// An open SQLite file. Where its writer was killed, what it left half done is undone, for which
@@ -61,7 +68,12 @@ class Database {
   Database& operator=(const Database&) = delete;
 
   void run(const std::string& sql);  ///< one or more statements without results
-  void check(int code);              ///< throws InputError unless code is SQLITE_OK, ROW or DONE
+  /// Writes into the file all that stands in its journal, and does without one, so that the file by
+  /// itself is the whole database. Where somebody else reads it the journal stays.
+  void leave_journal();
+  /// True if the file is no longer where it was opened: deleted, moved, or replaced.
+  bool has_moved() const;
+  void check(int code);  ///< throws InputError unless code is SQLITE_OK, ROW or DONE
   sqlite3* handle() { return database_; }
   const std::filesystem::path& file() const { return file_; }
 
@@ -70,6 +82,20 @@ class Database {
 
   std::filesystem::path file_;
   sqlite3* database_ = nullptr;
+};
+
+/// As long as it lives, the database shows one state, whatever others write. In another one it does
+/// nothing.
+class Snapshot {
+ public:
+  explicit Snapshot(Database& database);
+  ~Snapshot();
+  Snapshot(const Snapshot&) = delete;
+  Snapshot& operator=(const Snapshot&) = delete;
+
+ private:
+  Database& database_;
+  bool open_;
 };
 
 /// Begins a transaction; rolls it back unless committed.

@@ -87,8 +87,7 @@ TEST_F(EliteAuditTest, FreshStartsGiveOtherDistancesAndTheSameForAnyThreads) {
 
 TEST_F(EliteAuditTest, TellsWhoFallsBelowHalf) {
   // What is recorded three times too high is found at a third of it.
-  Database(path() / "run.db", Database::Mode::write)
-      .run("UPDATE elites SET quality = quality * 3 WHERE quality > 0");
+  tests::falsify(path(), "UPDATE elites SET quality = quality * 3 WHERE quality > 0");
   const MapAudit audited = audit_elites(RunReader(path()), options(1, 0, 1));
   int living = 0;
   for (const EliteAudit& elite : audited.elites) living += elite.recorded > 0 ? 1 : 0;
@@ -125,7 +124,7 @@ TEST_F(EliteAuditTest, ARunWithoutElitesGetsALine) {
   run_whole(directory_.path() / "simple", tiny_experiment("simple", 1));
   EXPECT_THAT(lines_of([&] { audit_elites(RunReader(directory_.path() / "simple"), {}); }),
               ElementsAre(HasSubstr("has no table elites: expected a run of map-elites")));
-  Database(path() / "run.db", Database::Mode::write).run("DELETE FROM elites");
+  tests::falsify(path(), "DELETE FROM elites");
   EXPECT_THAT(lines_of([&] { audit_elites(RunReader(path()), {}); }),
               ElementsAre(HasSubstr("no niche is filled yet")));
 }

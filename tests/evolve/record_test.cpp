@@ -344,7 +344,7 @@ TEST(Record, MissingForeignAndDamagedFilesGetOneLine) {
   EXPECT_THAT(read(), ElementsAre(HasSubstr("run.db: ")));
   std::ofstream(path / "run.db").close();  // empty
   EXPECT_THAT(resume(), ElementsAre(HasSubstr("holds no experiment")));
-  EXPECT_THAT(read(), ElementsAre(HasSubstr("expected \"metamorph-run/3\"")));
+  EXPECT_THAT(read(), ElementsAre(HasSubstr("expected \"metamorph-run/4\"")));
 }
 
 TEST(Record, EveryTruncatedFileGetsOneLine) {
@@ -380,7 +380,7 @@ TEST(Record, DamagedCheckpointsGetOneLine) {
               ElementsAre(HasSubstr("checkpoint is")));
   EXPECT_THAT(damaged("DELETE FROM checkpoint"), ElementsAre(HasSubstr("checkpoint is missing")));
   EXPECT_THAT(damaged("UPDATE run SET value = 'x' WHERE key = 'format'"),
-              ElementsAre(HasSubstr("format = \"x\": expected \"metamorph-run/3\"")));
+              ElementsAre(HasSubstr("format = \"x\": expected \"metamorph-run/4\"")));
 }
 
 TEST(Record, TablesAreWrittenAsCsv) {

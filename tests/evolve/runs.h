@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "evolve/experiment/experiment_file.h"
+#include "evolve/run/integrity.h"
 #include "evolve/run/run.h"
 #include "evolve/run/sqlite.h"
 
@@ -64,7 +65,8 @@ inline std::map<std::string, std::vector<std::string>> contents(
   std::map<std::string, std::vector<std::string>> result;
   while (tables.step()) {
     const std::string table = tables.text(0);
-    if (table == "sessions" || table == "timings" || table == "work") continue;
+    if (evolve::ledger_of(table) == evolve::Ledger::session) continue;
+    if (table == "session_digests") continue;
     std::vector<std::string>& rows = result[table];
     evolve::Statement select(database, "SELECT * FROM " + table);
     while (select.step()) {
@@ -82,6 +84,36 @@ inline std::map<std::string, std::vector<std::string>> contents(
     }
   }
   return result;
+}
+
+/// Changes a record by SQL and makes it whole again, as no damage does: what it says is false, but
+/// it is what was written.
+inline void falsify(const std::filesystem::path& directory, const std::string& sql) {
+  using namespace evolve;
+  Database database(directory / "run.db", Database::Mode::write);
+  database.run(sql);
+  std::map<std::int64_t, Digests> digests;
+  int generations = 0;
+  {
+    Statement select(database, "SELECT max(number) + 1 FROM digests");
+    if (select.step()) generations = static_cast<int>(select.integer(0));
+  }
+  for (const std::string& table : counted_tables(database)) {
+    const auto found = digests_of(database, table).of;
+    for (int g = 0; g < generations; ++g) {
+      const auto of_generation = found.find(g);
+      digests[g][table] = of_generation == found.end() ? TableDigest() : of_generation->second;
+    }
+  }
+  digests[before_generations] = frame_digests(database);
+  for (const auto& [number, of] : digests) write_digests(database, Ledger::chained, number, of);
+  Statement select(database, "SELECT state FROM checkpoint");
+  if (!select.step()) return;
+  Checkpoint checkpoint = decode(select.blob(0), directory.string());
+  checkpoint.chain = chain_of(database);
+  select.step();
+  Statement update(database, "UPDATE checkpoint SET state = ?");
+  update.bind_blob(encode(checkpoint)).run();
 }
 
 /// Runs an experiment from its start to its end in a new directory.
