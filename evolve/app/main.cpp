@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,11 @@ int run(int argc, char** argv) {
   } catch (const InputError& error) {
     for (const std::string& line : error.lines()) std::fprintf(stderr, "%s\n", line.c_str());
     return exit_input;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr,
+                 "metamorph: out of memory: expected more of it, or less at once; what a run has "
+                 "recorded is safe\n");
+    return exit_failure;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "metamorph: %s\n", error.what());
     return exit_failure;

@@ -6,7 +6,9 @@
 #include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
+#include "core/body/parallel_for.h"
 #include "core/development/link_check.h"
 #include "evolve/evaluation/describe.h"
 #include "evolve/evaluation/fingerprint.h"
@@ -17,6 +19,9 @@
 
 namespace metamorph::evolve {
 namespace {
+
+using core::parallel_for;
+using core::Schedule;
 
 std::ptrdiff_t signed_size(const auto& list) { return static_cast<std::ptrdiff_t>(list.size()); }
 
@@ -141,19 +146,19 @@ std::vector<Evaluated> Evaluator::Implementation::evaluate(
     Lives lives, const std::vector<std::uint8_t>& run_trial, int generation) {
   assert(run_trial.size() == rules_.trials.size());
   if (run_trial != known_trials_) known_.clear();
+  // Taken out, so that what is known is gone and not half moved away if something throws.
+  auto previous = std::exchange(known_, {});
+  known_trials_ = run_trial;
   work_ = {};
 
   Stopwatch watch;
   std::vector<Fingerprint> prints(lives.size());
-#pragma omp parallel for schedule(dynamic) num_threads(threads_)
-  for (std::ptrdiff_t i = 0; i < signed_size(lives); ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    prints[n] = fingerprint(lives[n]);
-  }
+  parallel_for<Schedule::dynamic>(lives.size(), threads_,
+                                  [&](std::size_t n) { prints[n] = fingerprint(lives[n]); });
   std::vector<std::vector<core::Network>> fresh;
   std::unordered_map<Fingerprint, std::size_t, FingerprintHash> fresh_position;
   for (std::size_t i = 0; i < lives.size(); ++i) {
-    if (known_.contains(prints[i])) continue;
+    if (previous.contains(prints[i])) continue;
     if (fresh_position.emplace(prints[i], fresh.size()).second) fresh.push_back(lives[i]);
   }
   seconds_.develop += watch.lap();
@@ -165,7 +170,7 @@ std::vector<Evaluated> Evaluator::Implementation::evaluate(
     const auto [entry, is_first] = current.try_emplace(print);
     if (!is_first) continue;
     const auto at = fresh_position.find(print);
-    entry->second = std::move(at == fresh_position.end() ? known_.at(print) : grown[at->second]);
+    entry->second = std::move(at == fresh_position.end() ? previous.at(print) : grown[at->second]);
     distinct.push_back(&entry->second);
   }
   outcomes_ = run_bodies(distinct, generation);
@@ -178,7 +183,6 @@ std::vector<Evaluated> Evaluator::Implementation::evaluate(
   }
   work_.individuals = signed_size(lives);
   known_ = std::move(current);
-  known_trials_ = run_trial;
   return results;
 }
 
@@ -222,15 +226,11 @@ std::vector<Known> Evaluator::Implementation::grow(Lives lives,
 
   std::vector<Known> all(count);
   for (Known& one : all) one.bodies.resize(stage_count);
-#pragma omp parallel for schedule(dynamic) num_threads(threads_)
-  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(count * stage_count); ++i) {
-    const std::size_t n = static_cast<std::size_t>(i) / stage_count;
-    const std::size_t stage = static_cast<std::size_t>(i) % stage_count;
+  parallel_for<Schedule::dynamic>(count * stage_count, threads_, [&](std::size_t i) {
+    const std::size_t n = i / stage_count, stage = i % stage_count;
     all[n].bodies[stage] = core::extract_body(embryos[n][stage], rules_.min_cells);
-  }
-#pragma omp parallel for schedule(dynamic) num_threads(threads_)
-  for (std::ptrdiff_t n = 0; n < static_cast<std::ptrdiff_t>(count); ++n) {
-    const auto i = static_cast<std::size_t>(n);
+  });
+  parallel_for<Schedule::dynamic>(count, threads_, [&](std::size_t i) {
     const std::vector<TrialDescriptors> described =
         describe_stages(rules_, stages, embryos[i], all[i].bodies);
     Evaluated& result = all[i].result;
@@ -254,7 +254,7 @@ std::vector<Known> Evaluator::Implementation::grow(Lives lives,
     if (last.created > rules_.created_limit) {
       result.penalty = rules_.created_penalty;
     }
-  }
+  });
   seconds_.extract += watch.lap();
   return all;
 }
@@ -286,16 +286,15 @@ Outcomes Evaluator::Implementation::run_bodies(std::span<Known* const> all, int 
   };
 
   Stopwatch watch;
-#pragma omp parallel for schedule(dynamic) num_threads(threads_)
-  for (std::ptrdiff_t i = 0; i < signed_size(all); ++i) {
-    Known& one = *all[static_cast<std::size_t>(i)];
+  parallel_for<Schedule::dynamic>(all.size(), threads_, [&](std::size_t i) {
+    Known& one = *all[i];
     one.tasks.resize(trials);
     for (std::size_t t = 0; t < trials; ++t) {
       if (const core::Body* body = body_of(one, t)) {
         one.tasks[t] = tasks_of(*body, rules_.trials[t], generation);
       }
     }
-  }
+  });
   seconds_.extract += watch.lap();
 
   Outcomes outcomes;
@@ -336,15 +335,13 @@ void Evaluator::Implementation::simulate(std::span<const Run> runs, int generati
                                          Outcomes& outcomes) const {
   std::vector<core::Body> displaced(runs.size());
   std::vector<core::LocomotionTask> tasks(runs.size());
-#pragma omp parallel for schedule(dynamic) num_threads(threads_)
-  for (std::ptrdiff_t i = 0; i < signed_size(runs); ++i) {
-    const auto n = static_cast<std::size_t>(i);
+  parallel_for<Schedule::dynamic>(runs.size(), threads_, [&](std::size_t n) {
     const auto& [task, body, trial, start] = runs[n];
     tasks[n] = {body, task.scene};
-    if (!is_displaced(*trial, start)) continue;
+    if (!is_displaced(*trial, start)) return;
     displaced[n] = start_of(*body, *trial, start, rules_.seed, generation);
     tasks[n].body = &displaced[n];
-  }
+  });
   const core::LocomotionOptions options{rules_.precision, rules_.method, threads_};
   const std::vector<core::Outcome> computed = core::simulate(tasks, options);
   for (std::size_t n = 0; n < runs.size(); ++n) outcomes.emplace(runs[n].task, computed[n]);
