@@ -25,10 +25,6 @@ using core::Schedule;
 
 std::ptrdiff_t signed_size(const auto& list) { return static_cast<std::ptrdiff_t>(list.size()); }
 
-// Displaced copies are made for so many simulations at a time: enough to keep threads busy, some
-// 100 MB of bodies.
-constexpr std::size_t most_at_once = 4096;
-
 /// Of each individual one network, or one for each stage of life.
 using Lives = std::span<const std::vector<core::Network>>;
 
@@ -128,7 +124,7 @@ class Evaluator::Implementation {
  private:
   std::vector<Known> grow(Lives lives, const std::vector<std::uint8_t>& run_trial);
   void check_links(Lives lives, const std::vector<int>& stages);
-  Outcomes run_bodies(std::span<Known* const> all, int generation);
+  void run_bodies(std::span<Known* const> all, int generation, Outcomes& outcomes);
   std::vector<Task> tasks_of(const core::Body& body, const Trial& trial, int generation) const;
   void simulate(std::span<const Run> runs, int generation, Outcomes& outcomes) const;
 
@@ -155,25 +151,29 @@ std::vector<Evaluated> Evaluator::Implementation::evaluate(
   std::vector<Fingerprint> prints(lives.size());
   parallel_for<Schedule::dynamic>(lives.size(), threads_,
                                   [&](std::size_t n) { prints[n] = fingerprint(lives[n]); });
-  std::vector<std::vector<core::Network>> fresh;
-  std::unordered_map<Fingerprint, std::size_t, FingerprintHash> fresh_position;
-  for (std::size_t i = 0; i < lives.size(); ++i) {
-    if (previous.contains(prints[i])) continue;
-    if (fresh_position.emplace(prints[i], fresh.size()).second) fresh.push_back(lives[i]);
-  }
   seconds_.develop += watch.lap();
 
-  std::vector<Known> grown = grow(fresh, run_trial);
   std::unordered_map<Fingerprint, Known, FingerprintHash> current;
-  std::vector<Known*> distinct;
-  for (const Fingerprint& print : prints) {
-    const auto [entry, is_first] = current.try_emplace(print);
-    if (!is_first) continue;
-    const auto at = fresh_position.find(print);
-    entry->second = std::move(at == fresh_position.end() ? previous.at(print) : grown[at->second]);
-    distinct.push_back(&entry->second);
+  Outcomes outcomes;
+  for (std::size_t next = 0; next < prints.size();) {
+    std::vector<Known*> distinct, unknown;
+    std::vector<std::vector<core::Network>> fresh;
+    for (; next < prints.size() && distinct.size() < most_at_once; ++next) {
+      const auto [entry, is_first] = current.try_emplace(prints[next]);
+      if (!is_first) continue;
+      distinct.push_back(&entry->second);
+      if (const auto known = previous.find(prints[next]); known != previous.end()) {
+        entry->second = std::move(known->second);
+      } else {
+        unknown.push_back(&entry->second);
+        fresh.push_back(lives[next]);
+      }
+    }
+    std::vector<Known> grown = grow(fresh, run_trial);
+    for (std::size_t n = 0; n < grown.size(); ++n) *unknown[n] = std::move(grown[n]);
+    run_bodies(distinct, generation, outcomes);
   }
-  outcomes_ = run_bodies(distinct, generation);
+  outcomes_ = std::move(outcomes);
 
   std::vector<Evaluated> results;
   for (const Fingerprint& print : prints) {
@@ -191,7 +191,8 @@ Evaluated Evaluator::Implementation::evaluate_fully(const std::vector<core::Netw
   const EvaluationWork work = work_;  // this one is nobody's generation
   std::vector<Known> grown = grow({&life, 1}, std::vector<std::uint8_t>(rules_.trials.size(), 1));
   Known* const all[] = {&grown.front()};
-  run_bodies(all, generation);
+  Outcomes outcomes;
+  run_bodies(all, generation, outcomes);
   work_ = work;
   return std::move(grown.front().result);
 }
@@ -272,9 +273,10 @@ std::vector<Task> Evaluator::Implementation::tasks_of(const core::Body& body, co
   return tasks;
 }
 
-/// Runs the bodies of `all` from the starts of a generation, as far as no outcome is known, and
-/// completes their results. Returns the outcomes of all their tasks.
-Outcomes Evaluator::Implementation::run_bodies(std::span<Known* const> all, int generation) {
+/// Runs the bodies of `all` from the starts of a generation, as far as neither `outcomes` nor the
+/// last call knows their outcome, and completes their results. Adds the outcomes of their tasks.
+void Evaluator::Implementation::run_bodies(std::span<Known* const> all, int generation,
+                                           Outcomes& outcomes) {
   const std::size_t trials = rules_.trials.size();
   const auto body_of = [&](const Known& one, std::size_t trial) -> const core::Body* {
     const auto& ran = one.result.evaluated;
@@ -297,13 +299,13 @@ Outcomes Evaluator::Implementation::run_bodies(std::span<Known* const> all, int 
   });
   seconds_.extract += watch.lap();
 
-  Outcomes outcomes;
   std::vector<Run> runs;  // of different bodies or scenes
   std::unordered_set<Task, TaskHash> running;
   for (const Known* one : all) {
     for (std::size_t t = 0; t < trials; ++t) {
       for (std::size_t s = 0; s < one->tasks[t].size(); ++s) {
         const Task& task = one->tasks[t][s];
+        if (outcomes.contains(task)) continue;
         if (const auto known = outcomes_.find(task); known != outcomes_.end()) {
           outcomes.insert(*known);
         } else if (running.insert(task).second) {
@@ -328,7 +330,6 @@ Outcomes Evaluator::Implementation::run_bodies(std::span<Known* const> all, int 
   }
   work_.simulated += signed_size(runs);
   seconds_.locomotion += watch.lap();
-  return outcomes;
 }
 
 void Evaluator::Implementation::simulate(std::span<const Run> runs, int generation,

@@ -15,7 +15,7 @@
 namespace metamorph::core {
 namespace {
 
-constexpr std::size_t many = 100000;
+constexpr std::size_t many = 3000;
 
 template <Schedule schedule>
 void every_item_comes_once() {

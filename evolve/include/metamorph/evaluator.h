@@ -126,6 +126,10 @@ struct EvaluationWork {
 /// of threads; the evaluator then knows less, and goes on with the same results.
 class Evaluator {
  public:
+  /// So many individuals are developed, and so many simulations prepared, at a time: enough to keep
+  /// threads busy, and all the memory for embryos and bodies that a generation of any size takes.
+  static constexpr std::size_t most_at_once = 4096;
+
   /// `threads` 0: all. With `checked` (borrowed) the links of every development are checked and
   /// counted there, and a difference is thrown as std::runtime_error.
   explicit Evaluator(EvaluationRules rules, int threads = 0, CheckedLinks* checked = nullptr);
