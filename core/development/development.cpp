@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/body/parallel_for.h"
 #include "core/development/developer.h"
 #include "core/development/link_check.h"
 #include "metamorph/threads.h"
@@ -44,16 +45,12 @@ void for_each_embryo([[maybe_unused]] const All& all, const DevelopmentRules& ru
                      const Develop& develop) {
   assert(std::is_sorted(stages.begin(), stages.end()));
   assert(stages.empty() || (stages.front() >= 0 && stages.back() <= rules.steps));
-  const auto count = static_cast<std::ptrdiff_t>(all.size());
-#pragma omp parallel num_threads(thread_count(threads))
-  {
-    Developer<float> developer(rules);
-#pragma omp for schedule(dynamic)
-    for (std::ptrdiff_t i = 0; i < count; ++i) {
-      assert(fits(all[static_cast<std::size_t>(i)], rules));
-      develop(developer, static_cast<std::size_t>(i));
-    }
-  }
+  parallel_for<Schedule::dynamic>(
+      all.size(), thread_count(threads), [&] { return Developer<float>(rules); },
+      [&](Developer<float>& developer, std::size_t n) {
+        assert(fits(all[n], rules));
+        develop(developer, n);
+      });
 }
 
 template <class All>

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/body/parallel_for.h"
 #include "core/locomotion/rings.h"
 
 namespace metamorph::core {
@@ -92,13 +93,10 @@ BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, in
       offset_(tasks.size() + 1),
       advance_(tasks.size()),
       origin_(tasks.size()) {
-  const auto count = static_cast<std::int64_t>(tasks.size());
   std::vector<Plan> plans;
   plans.reserve(tasks.size());
-  for (std::int64_t i = 0; i < count; ++i) plans.emplace_back(Body{});
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::int64_t i = 0; i < count; ++i) {
-    const auto index = static_cast<std::size_t>(i);
+  for (std::size_t i = 0; i < tasks.size(); ++i) plans.emplace_back(Body{});
+  parallel_for<Schedule::dynamic>(tasks.size(), threads, [&](std::size_t index) {
     Plan plan(*tasks[index].body);
     Extent extent{};
     extent.nodes = static_cast<int>(plan.order.size());
@@ -112,7 +110,7 @@ BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, in
     }
     extent_[index] = extent;
     plans[index] = std::move(plan);
-  }
+  });
 
   Offset total{};
   for (std::size_t i = 0; i < tasks.size(); ++i) {
@@ -136,11 +134,9 @@ BodyBatch<T>::BodyBatch(std::span<const LocomotionTask> tasks, bool midpoint, in
   node_of_lane_.assign(total.groups * width, -1);
   outline_edges_.resize(total.outline_edges);
 
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::int64_t i = 0; i < count; ++i) {
-    const auto index = static_cast<std::size_t>(i);
+  parallel_for<Schedule::dynamic>(tasks.size(), threads, [&](std::size_t index) {
     fill(index, tasks[index], plans[index], midpoint);
-  }
+  });
 }
 
 /// The oscillators of a body's nodes.

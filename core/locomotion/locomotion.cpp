@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "core/body/parallel_for.h"
 #include "core/locomotion/body_batch.h"
 #include "core/locomotion/runner.h"
 #include "metamorph/automatic_step.h"
@@ -65,15 +66,12 @@ std::vector<Outcome> run_all(std::span<const LocomotionTask> given,
                              const LocomotionOptions& options, int every,
                              const std::function<void(const Frame&)>& observe) {
   const int threads = thread_count(options.threads);
-  const auto count = static_cast<std::int64_t>(given.size());
   std::vector<LocomotionTask> tasks(given.begin(), given.end());
   std::vector<Scene> own_scenes(tasks.size());
   std::vector<Outcome> outcomes(tasks.size());
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::int64_t i = 0; i < count; ++i) {
-    const auto index = static_cast<std::size_t>(i);
+  parallel_for<Schedule::dynamic>(tasks.size(), threads, [&](std::size_t index) {
     outcomes[index] = before_running(tasks[index], options.method, own_scenes[index]);
-  }
+  });
 
   std::vector<std::size_t> sound;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
@@ -87,19 +85,14 @@ std::vector<Outcome> run_all(std::span<const LocomotionTask> given,
   for (std::size_t i : sound) packed.push_back(tasks[i]);
 
   BodyBatch<T> batch(packed, options.method == Method::drift_kick_drift, threads);
-  const auto runs = static_cast<std::int64_t>(packed.size());
-#pragma omp parallel num_threads(threads)
-  {
-    Runner<T> runner(batch, options.method);
-#pragma omp for schedule(dynamic)
-    for (std::int64_t i = 0; i < runs; ++i) {
-      const auto index = static_cast<std::size_t>(i);
-      // A copy, for it is written in every step: its neighbours are other threads'.
-      Outcome outcome = outcomes[sound[index]];
-      runner.run(index, packed[index], outcome, every, observe);
-      outcomes[sound[index]] = outcome;
-    }
-  }
+  parallel_for<Schedule::dynamic>(
+      packed.size(), threads, [&] { return Runner<T>(batch, options.method); },
+      [&](Runner<T>& runner, std::size_t index) {
+        // A copy, for it is written in every step: its neighbours are other threads'.
+        Outcome outcome = outcomes[sound[index]];
+        runner.run(index, packed[index], outcome, every, observe);
+        outcomes[sound[index]] = outcome;
+      });
   return outcomes;
 }
 

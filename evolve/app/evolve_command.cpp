@@ -11,6 +11,7 @@
 #include "evolve/app/progress.h"
 #include "evolve/experiment/experiment_file.h"
 #include "evolve/files/input_error.h"
+#include "evolve/run/memory_check.h"
 #include "evolve/run/pictures.h"
 #include "evolve/run/run.h"
 
@@ -80,6 +81,7 @@ std::filesystem::path default_directory(const Experiment& experiment) {
 std::unique_ptr<Record> open_record(const Arguments& given) {
   if (given.resume.empty()) {
     const Experiment experiment = read_experiment(given.experiment, overrides_of(given));
+    require_memory(experiment, given.threads);
     const SearchSetup setup = search_setup_of(experiment, given.threads);
     if (const auto notes = search_kind(experiment.search.kind).notes; notes != nullptr) {
       for (const std::string& note : notes(setup)) fmt::print(stderr, "note: {}\n", note);
@@ -89,6 +91,7 @@ std::unique_ptr<Record> open_record(const Arguments& given) {
         experiment, given.threads);
   }
   std::unique_ptr<Record> record = Record::resume(given.resume, given.threads);
+  require_memory(record->experiment(), given.threads);
   if (!given.generations.empty()) {
     const Experiment recorded = record->experiment();
     // Through the same checks as every other way to give the number.

@@ -1,6 +1,9 @@
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -34,7 +37,20 @@ std::string fault_line(const CLI::App& app, const CLI::ParseError& error) {
   return command + ": " + what + " (see " + command + " --help)";
 }
 
+/// Kept for the way out: what is destroyed there may allocate (nlohmann's JSON does, by the length
+/// of its lists), and would end the program in an abort. Never written, it takes address space
+/// alone.
+constexpr std::size_t reserve_size = 32 << 20;
+std::atomic<void*> reserve;
+
+void give_up() {
+  std::free(reserve.exchange(nullptr));
+  throw std::bad_alloc();
+}
+
 int run(int argc, char** argv) {
+  reserve = std::malloc(reserve_size);
+  std::set_new_handler(give_up);
   CLI::App app("Evolves soft-bodied robots that change their shape.", "metamorph");
   app.set_version_flag("--version", "metamorph " METAMORPH_VERSION);
   app.require_subcommand(1);
@@ -48,6 +64,11 @@ int run(int argc, char** argv) {
   } catch (const InputError& error) {
     for (const std::string& line : error.lines()) std::fprintf(stderr, "%s\n", line.c_str());
     return exit_input;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr,
+                 "metamorph: out of memory: expected more of it, or less at once; what a run has "
+                 "recorded is safe\n");
+    return exit_failure;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "metamorph: %s\n", error.what());
     return exit_failure;

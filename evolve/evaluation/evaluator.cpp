@@ -6,7 +6,9 @@
 #include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
+#include "core/body/parallel_for.h"
 #include "core/development/link_check.h"
 #include "evolve/evaluation/describe.h"
 #include "evolve/evaluation/fingerprint.h"
@@ -18,11 +20,10 @@
 namespace metamorph::evolve {
 namespace {
 
-std::ptrdiff_t signed_size(const auto& list) { return static_cast<std::ptrdiff_t>(list.size()); }
+using core::parallel_for;
+using core::Schedule;
 
-// Displaced copies are made for so many simulations at a time: enough to keep threads busy, some
-// 100 MB of bodies.
-constexpr std::size_t most_at_once = 4096;
+std::ptrdiff_t signed_size(const auto& list) { return static_cast<std::ptrdiff_t>(list.size()); }
 
 /// Of each individual one network, or one for each stage of life.
 using Lives = std::span<const std::vector<core::Network>>;
@@ -123,7 +124,7 @@ class Evaluator::Implementation {
  private:
   std::vector<Known> grow(Lives lives, const std::vector<std::uint8_t>& run_trial);
   void check_links(Lives lives, const std::vector<int>& stages);
-  Outcomes run_bodies(std::span<Known* const> all, int generation);
+  void run_bodies(std::span<Known* const> all, int generation, Outcomes& outcomes);
   std::vector<Task> tasks_of(const core::Body& body, const Trial& trial, int generation) const;
   void simulate(std::span<const Run> runs, int generation, Outcomes& outcomes) const;
 
@@ -141,34 +142,38 @@ std::vector<Evaluated> Evaluator::Implementation::evaluate(
     Lives lives, const std::vector<std::uint8_t>& run_trial, int generation) {
   assert(run_trial.size() == rules_.trials.size());
   if (run_trial != known_trials_) known_.clear();
+  // Taken out, so that what is known is gone and not half moved away if something throws.
+  auto previous = std::exchange(known_, {});
+  known_trials_ = run_trial;
   work_ = {};
 
   Stopwatch watch;
   std::vector<Fingerprint> prints(lives.size());
-#pragma omp parallel for schedule(dynamic) num_threads(threads_)
-  for (std::ptrdiff_t i = 0; i < signed_size(lives); ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    prints[n] = fingerprint(lives[n]);
-  }
-  std::vector<std::vector<core::Network>> fresh;
-  std::unordered_map<Fingerprint, std::size_t, FingerprintHash> fresh_position;
-  for (std::size_t i = 0; i < lives.size(); ++i) {
-    if (known_.contains(prints[i])) continue;
-    if (fresh_position.emplace(prints[i], fresh.size()).second) fresh.push_back(lives[i]);
-  }
+  parallel_for<Schedule::dynamic>(lives.size(), threads_,
+                                  [&](std::size_t n) { prints[n] = fingerprint(lives[n]); });
   seconds_.develop += watch.lap();
 
-  std::vector<Known> grown = grow(fresh, run_trial);
   std::unordered_map<Fingerprint, Known, FingerprintHash> current;
-  std::vector<Known*> distinct;
-  for (const Fingerprint& print : prints) {
-    const auto [entry, is_first] = current.try_emplace(print);
-    if (!is_first) continue;
-    const auto at = fresh_position.find(print);
-    entry->second = std::move(at == fresh_position.end() ? known_.at(print) : grown[at->second]);
-    distinct.push_back(&entry->second);
+  Outcomes outcomes;
+  for (std::size_t next = 0; next < prints.size();) {
+    std::vector<Known*> distinct, unknown;
+    std::vector<std::vector<core::Network>> fresh;
+    for (; next < prints.size() && distinct.size() < most_at_once; ++next) {
+      const auto [entry, is_first] = current.try_emplace(prints[next]);
+      if (!is_first) continue;
+      distinct.push_back(&entry->second);
+      if (const auto known = previous.find(prints[next]); known != previous.end()) {
+        entry->second = std::move(known->second);
+      } else {
+        unknown.push_back(&entry->second);
+        fresh.push_back(lives[next]);
+      }
+    }
+    std::vector<Known> grown = grow(fresh, run_trial);
+    for (std::size_t n = 0; n < grown.size(); ++n) *unknown[n] = std::move(grown[n]);
+    run_bodies(distinct, generation, outcomes);
   }
-  outcomes_ = run_bodies(distinct, generation);
+  outcomes_ = std::move(outcomes);
 
   std::vector<Evaluated> results;
   for (const Fingerprint& print : prints) {
@@ -178,7 +183,6 @@ std::vector<Evaluated> Evaluator::Implementation::evaluate(
   }
   work_.individuals = signed_size(lives);
   known_ = std::move(current);
-  known_trials_ = run_trial;
   return results;
 }
 
@@ -187,7 +191,8 @@ Evaluated Evaluator::Implementation::evaluate_fully(const std::vector<core::Netw
   const EvaluationWork work = work_;  // this one is nobody's generation
   std::vector<Known> grown = grow({&life, 1}, std::vector<std::uint8_t>(rules_.trials.size(), 1));
   Known* const all[] = {&grown.front()};
-  run_bodies(all, generation);
+  Outcomes outcomes;
+  run_bodies(all, generation, outcomes);
   work_ = work;
   return std::move(grown.front().result);
 }
@@ -222,15 +227,11 @@ std::vector<Known> Evaluator::Implementation::grow(Lives lives,
 
   std::vector<Known> all(count);
   for (Known& one : all) one.bodies.resize(stage_count);
-#pragma omp parallel for schedule(dynamic) num_threads(threads_)
-  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(count * stage_count); ++i) {
-    const std::size_t n = static_cast<std::size_t>(i) / stage_count;
-    const std::size_t stage = static_cast<std::size_t>(i) % stage_count;
+  parallel_for<Schedule::dynamic>(count * stage_count, threads_, [&](std::size_t i) {
+    const std::size_t n = i / stage_count, stage = i % stage_count;
     all[n].bodies[stage] = core::extract_body(embryos[n][stage], rules_.min_cells);
-  }
-#pragma omp parallel for schedule(dynamic) num_threads(threads_)
-  for (std::ptrdiff_t n = 0; n < static_cast<std::ptrdiff_t>(count); ++n) {
-    const auto i = static_cast<std::size_t>(n);
+  });
+  parallel_for<Schedule::dynamic>(count, threads_, [&](std::size_t i) {
     const std::vector<TrialDescriptors> described =
         describe_stages(rules_, stages, embryos[i], all[i].bodies);
     Evaluated& result = all[i].result;
@@ -254,7 +255,7 @@ std::vector<Known> Evaluator::Implementation::grow(Lives lives,
     if (last.created > rules_.created_limit) {
       result.penalty = rules_.created_penalty;
     }
-  }
+  });
   seconds_.extract += watch.lap();
   return all;
 }
@@ -272,9 +273,10 @@ std::vector<Task> Evaluator::Implementation::tasks_of(const core::Body& body, co
   return tasks;
 }
 
-/// Runs the bodies of `all` from the starts of a generation, as far as no outcome is known, and
-/// completes their results. Returns the outcomes of all their tasks.
-Outcomes Evaluator::Implementation::run_bodies(std::span<Known* const> all, int generation) {
+/// Runs the bodies of `all` from the starts of a generation, as far as neither `outcomes` nor the
+/// last call knows their outcome, and completes their results. Adds the outcomes of their tasks.
+void Evaluator::Implementation::run_bodies(std::span<Known* const> all, int generation,
+                                           Outcomes& outcomes) {
   const std::size_t trials = rules_.trials.size();
   const auto body_of = [&](const Known& one, std::size_t trial) -> const core::Body* {
     const auto& ran = one.result.evaluated;
@@ -286,25 +288,24 @@ Outcomes Evaluator::Implementation::run_bodies(std::span<Known* const> all, int 
   };
 
   Stopwatch watch;
-#pragma omp parallel for schedule(dynamic) num_threads(threads_)
-  for (std::ptrdiff_t i = 0; i < signed_size(all); ++i) {
-    Known& one = *all[static_cast<std::size_t>(i)];
+  parallel_for<Schedule::dynamic>(all.size(), threads_, [&](std::size_t i) {
+    Known& one = *all[i];
     one.tasks.resize(trials);
     for (std::size_t t = 0; t < trials; ++t) {
       if (const core::Body* body = body_of(one, t)) {
         one.tasks[t] = tasks_of(*body, rules_.trials[t], generation);
       }
     }
-  }
+  });
   seconds_.extract += watch.lap();
 
-  Outcomes outcomes;
   std::vector<Run> runs;  // of different bodies or scenes
   std::unordered_set<Task, TaskHash> running;
   for (const Known* one : all) {
     for (std::size_t t = 0; t < trials; ++t) {
       for (std::size_t s = 0; s < one->tasks[t].size(); ++s) {
         const Task& task = one->tasks[t][s];
+        if (outcomes.contains(task)) continue;
         if (const auto known = outcomes_.find(task); known != outcomes_.end()) {
           outcomes.insert(*known);
         } else if (running.insert(task).second) {
@@ -329,22 +330,19 @@ Outcomes Evaluator::Implementation::run_bodies(std::span<Known* const> all, int 
   }
   work_.simulated += signed_size(runs);
   seconds_.locomotion += watch.lap();
-  return outcomes;
 }
 
 void Evaluator::Implementation::simulate(std::span<const Run> runs, int generation,
                                          Outcomes& outcomes) const {
   std::vector<core::Body> displaced(runs.size());
   std::vector<core::LocomotionTask> tasks(runs.size());
-#pragma omp parallel for schedule(dynamic) num_threads(threads_)
-  for (std::ptrdiff_t i = 0; i < signed_size(runs); ++i) {
-    const auto n = static_cast<std::size_t>(i);
+  parallel_for<Schedule::dynamic>(runs.size(), threads_, [&](std::size_t n) {
     const auto& [task, body, trial, start] = runs[n];
     tasks[n] = {body, task.scene};
-    if (!is_displaced(*trial, start)) continue;
+    if (!is_displaced(*trial, start)) return;
     displaced[n] = start_of(*body, *trial, start, rules_.seed, generation);
     tasks[n].body = &displaced[n];
-  }
+  });
   const core::LocomotionOptions options{rules_.precision, rules_.method, threads_};
   const std::vector<core::Outcome> computed = core::simulate(tasks, options);
   for (std::size_t n = 0; n < runs.size(); ++n) outcomes.emplace(runs[n].task, computed[n]);

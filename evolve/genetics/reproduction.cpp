@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/body/parallel_for.h"
 #include "metamorph/random.h"
 #include "metamorph/variation.h"
 
@@ -224,12 +225,10 @@ std::vector<Child> breed_distinct(int count, int tries, int threads,
                                   std::span<const Genome* const> living) {
   std::vector<Child> children(static_cast<std::size_t>(count));
   std::vector<std::uint64_t> prints(children.size());
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (int i = 0; i < count; ++i) {
-    const std::size_t c = static_cast<std::size_t>(i);
-    children[c] = child(i, 0);
+  core::parallel_for<core::Schedule::equal>(children.size(), threads, [&](std::size_t c) {
+    children[c] = child(static_cast<int>(c), 0);
     prints[c] = fingerprint(children[c].genome, children[c].change);
-  }
+  });
 
   // Clones are looked for in order of the children: which one is bred again must not depend on
   // which thread was first. They are compared before numbering: equal changes get equal numbers.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "core/body/parallel_for.h"
 #include "evolve/genetics/distance.h"
 
 namespace metamorph::evolve {
@@ -56,7 +57,6 @@ double adapted_threshold(double threshold, int species, const NeatSettings& sett
 std::vector<int> place_in_species(PopulationState& state, const NeatSettings& settings,
                                   int threads) {
   const std::size_t old_species = state.species.size();
-  const int genomes = static_cast<int>(state.genomes.size());
   const double threshold = state.compatibility_threshold;
   std::vector<LinkArrays> representatives;
   for (const Species& species : state.species) {
@@ -75,12 +75,10 @@ std::vector<int> place_in_species(PopulationState& state, const NeatSettings& se
   };
   // Founders stand behind the species that were there before, so the old ones can be searched in
   // parallel and only what fits none of them has to take its turn.
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (int i = 0; i < genomes; ++i) {
-    const std::size_t genome = static_cast<std::size_t>(i);
+  core::parallel_for<core::Schedule::equal>(state.genomes.size(), threads, [&](std::size_t genome) {
     links[genome] = link_arrays(state.genomes[genome]);
     place[genome] = first_fit(genome, 0);
-  }
+  });
   for (std::size_t i = 0; i < state.genomes.size(); ++i) {
     if (place[i] == old_species) {
       place[i] = first_fit(i, old_species);

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
+#include "core/body/parallel_for.h"
 #include "evolve/evaluation/starts.h"
 #include "evolve/files/input_error.h"
 #include "evolve/run/median.h"
@@ -239,14 +241,12 @@ RunAudit audit(const RunReader& run, const AuditOptions& options,
   const int threads = core::thread_count(options.threads);
   const EvaluationRules rules = rules_of(experiment);
   std::vector<Evaluated> replays(result.champions.size());
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(replays.size()); ++i) {
-    const auto c = static_cast<std::size_t>(i);
+  core::parallel_for<core::Schedule::dynamic>(replays.size(), threads, [&](std::size_t c) {
     const Champion& champion = result.champions[c].champion;
     // By itself, because the starts may be those of its generation.
     replays[c] = Evaluator(rules, 1).evaluate_fully(networks_of(experiment, champion.genome),
                                                     champion.generation);
-  }
+  });
   for (std::size_t c = 0; c < replays.size(); ++c) {
     const Champion& champion = result.champions[c].champion;
     for (std::size_t t = 0; t < trials; ++t) {
@@ -260,20 +260,19 @@ RunAudit audit(const RunReader& run, const AuditOptions& options,
     }
   }
 
-  const auto count = static_cast<std::ptrdiff_t>(result.champions.size() * trials);
+  const std::size_t count = result.champions.size() * trials;
   int done = 0;
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const auto n = static_cast<std::size_t>(i);
+  std::mutex progressing;
+  core::parallel_for<core::Schedule::dynamic>(count, threads, [&](std::size_t n) {
     ChampionAudit& champion = result.champions[n / trials];
     TrialAudit& audited = champion.trials[n % trials];
     if (audited.recorded && !core::is_failure(audited.replay.status) &&
         !is_failure_name(audited.recorded_status)) {
       compare(audited, champion.champion, experiment, experiment.trials[n % trials], options);
     }
-#pragma omp critical(metamorph_audit_progress)
+    const std::lock_guard lock(progressing);
     if (progress) progress(++done, static_cast<int>(count));
-  }
+  });
   for (std::size_t c = 0; c < replays.size(); ++c) {
     close_champion(result.champions[c], replays[c]);
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/body/parallel_for.h"
 #include "evolve/evaluation/stopwatch.h"
 #include "evolve/files/input_error.h"
 #include "metamorph/threads.h"
@@ -16,11 +17,9 @@ using Lives = std::vector<std::vector<core::Network>>;
 
 Lives compile_all(const std::vector<Genome>& genomes, const Experiment& experiment, int threads) {
   Lives lives(genomes.size());
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(genomes.size()); ++i) {
-    const auto n = static_cast<std::size_t>(i);
+  core::parallel_for<core::Schedule::dynamic>(genomes.size(), threads, [&](std::size_t n) {
     lives[n] = networks_of(experiment, genomes[n]);
-  }
+  });
   return lives;
 }
 

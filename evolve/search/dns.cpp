@@ -53,8 +53,13 @@ std::unique_ptr<Search> make(const SearchSetup& setup) {
 SearchKind dns_search() {
   std::vector<Setting> settings = axis_settings();
   settings.push_back({"fitter_neighbours", 3, 1, 1e6, "k of dominated novelty search"});
-  return {"dns", "the distance to those that are fitter (dominated novelty search)",
-          std::move(settings), make, axis_faults};
+  return {"dns",
+          "the distance to those that are fitter (dominated novelty search)",
+          std::move(settings),
+          make,
+          axis_faults,
+          nullptr,
+          true};
 }
 
 }  // namespace metamorph::evolve

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/body/parallel_for.h"
+
 namespace metamorph::evolve {
 namespace {
 
@@ -33,9 +35,7 @@ double keep_nearest(std::vector<Near>& near, int k, double alone) {
 std::vector<Neighbourhood> neighbourhoods(std::span<const Placed> all, std::size_t queries, int k,
                                           int threads) {
   std::vector<Neighbourhood> result(queries);
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::ptrdiff_t query = 0; query < static_cast<std::ptrdiff_t>(queries); ++query) {
-    const auto q = static_cast<std::size_t>(query);
+  core::parallel_for<core::Schedule::equal>(queries, threads, [&](std::size_t q) {
     std::vector<Near> near;
     near.reserve(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -44,15 +44,13 @@ std::vector<Neighbourhood> neighbourhoods(std::span<const Placed> all, std::size
     }
     result[q].novelty = keep_nearest(near, k, 0);
     for (const auto& [square, i] : near) result[q].worse += all[i].quality < all[q].quality ? 1 : 0;
-  }
+  });
   return result;
 }
 
 std::vector<double> distances_to_fitter(std::span<const Placed> all, int k, int threads) {
   std::vector<double> result(all.size());
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::ptrdiff_t query = 0; query < static_cast<std::ptrdiff_t>(all.size()); ++query) {
-    const auto q = static_cast<std::size_t>(query);
+  core::parallel_for<core::Schedule::equal>(all.size(), threads, [&](std::size_t q) {
     std::vector<Near> near;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const bool fitter =
@@ -60,7 +58,7 @@ std::vector<double> distances_to_fitter(std::span<const Placed> all, int k, int 
       if (fitter) near.emplace_back(squared_distance(all[i].position, all[q].position), i);
     }
     result[q] = keep_nearest(near, k, std::numeric_limits<double>::infinity());
-  }
+  });
   return result;
 }
 

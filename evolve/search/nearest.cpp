@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/body/parallel_for.h"
 #include "evolve/search/nearest_squared.h"
 
 namespace metamorph::evolve {
@@ -10,20 +11,24 @@ namespace metamorph::evolve {
 void mean_nearest_distances(std::span<const double> points, int dimensions, int k, int threads,
                             std::span<double> mean) {
   const std::ptrdiff_t count = static_cast<std::ptrdiff_t>(points.size()) / dimensions;
-  const std::ptrdiff_t queries = static_cast<std::ptrdiff_t>(mean.size());
-#pragma omp parallel num_threads(threads)
-  {
-    std::vector<double> query(static_cast<std::size_t>(dimensions));
-    std::vector<double> smallest(static_cast<std::size_t>(k));
-#pragma omp for schedule(static)
-    for (std::ptrdiff_t q = 0; q < queries; ++q) {
-      for (int d = 0; d < dimensions; ++d) {
-        query[static_cast<std::size_t>(d)] = points[static_cast<std::size_t>(d * count + q)];
-      }
-      mean[static_cast<std::size_t>(q)] = mean_nearest(points.data(), count, count, dimensions,
-                                                       query.data(), q, k, smallest.data());
-    }
-  }
+  struct Scratch {
+    std::vector<double> query, smallest;
+  };
+  core::parallel_for<core::Schedule::equal>(
+      mean.size(), threads,
+      [&] {
+        return Scratch{std::vector<double>(static_cast<std::size_t>(dimensions)),
+                       std::vector<double>(static_cast<std::size_t>(k))};
+      },
+      [&](Scratch& scratch, std::size_t index) {
+        const auto q = static_cast<std::ptrdiff_t>(index);
+        for (int d = 0; d < dimensions; ++d) {
+          scratch.query[static_cast<std::size_t>(d)] =
+              points[static_cast<std::size_t>(d * count + q)];
+        }
+        mean[index] = mean_nearest(points.data(), count, count, dimensions, scratch.query.data(), q,
+                                   k, scratch.smallest.data());
+      });
 }
 
 }  // namespace metamorph::evolve

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/body/parallel_for.h"
 #include "metamorph/random.h"
 
 namespace metamorph::evolve {
@@ -57,11 +58,9 @@ Niches Niches::centroidal(int count, int axes, int threads) {
   centres.assign(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(of * dimensions));
   std::vector<std::size_t> owner(samples);
   for (int round = 0; round < rounds; ++round) {
-#pragma omp parallel for num_threads(threads) schedule(static)
-    for (std::ptrdiff_t s = 0; s < static_cast<std::ptrdiff_t>(samples); ++s) {
-      const auto sample = static_cast<std::size_t>(s);
+    core::parallel_for<core::Schedule::equal>(samples, threads, [&](std::size_t sample) {
       owner[sample] = nearest(centres, points.data() + sample * dimensions, dimensions);
-    }
+    });
     std::vector<double> sums(centres.size(), 0.0);
     std::vector<int> members(of, 0);
     for (std::size_t s = 0; s < samples; ++s) {

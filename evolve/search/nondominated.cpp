@@ -1,54 +1,39 @@
 #include "evolve/search/nondominated.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numeric>
 
 namespace metamorph::evolve {
-namespace {
 
-/// `a` stands before `b` in the list.
-enum class Relation { neither, a_dominates, b_dominates };
-Relation compare(const std::vector<double>& a, const std::vector<double>& b) {
-  bool a_better = false, b_better = false;
-  for (std::size_t o = 0; o < a.size(); ++o) {
-    a_better |= a[o] > b[o];
-    b_better |= b[o] > a[o];
-  }
-  if (a_better && b_better) return Relation::neither;
-  return b_better ? Relation::b_dominates : Relation::a_dominates;
-}
-
-}  // namespace
-
+// Efficient non-dominated sort (Zhang et al. 2015, ENS-BS): takes memory for the points alone,
+// where a list of who dominates whom grows as their square.
 std::vector<int> front_numbers(std::span<const std::vector<double>> points) {
-  std::vector<std::vector<std::size_t>> dominated(points.size());
-  std::vector<int> dominators(points.size(), 0);
-  for (std::size_t b = 0; b < points.size(); ++b) {
-    for (std::size_t a = 0; a < b; ++a) {
-      const Relation relation = compare(points[a], points[b]);
-      if (relation == Relation::neither) continue;
-      const bool first = relation == Relation::a_dominates;
-      dominated[first ? a : b].push_back(first ? b : a);
-      ++dominators[first ? b : a];
+  // By the first objective in which they differ, then by place: who dominates stands before.
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return points[a] > points[b]; });
+  std::vector<std::vector<std::size_t>> fronts;
+  std::vector<int> number(points.size());
+  for (const std::size_t p : order) {
+    // Who is dominated in a front is so in all before it.
+    const auto place = std::partition_point(
+        fronts.begin(), fronts.end(), [&](const std::vector<std::size_t>& members) {
+          return std::any_of(members.rbegin(), members.rend(), [&](std::size_t m) {
+            return std::equal(points[m].begin(), points[m].end(), points[p].begin(),
+                              std::greater_equal<>());
+          });
+        });
+    number[p] = static_cast<int>(place - fronts.begin());
+    if (place == fronts.end()) {
+      fronts.push_back({p});
+    } else {
+      place->push_back(p);
     }
   }
-  std::vector<int> front(points.size(), 0);
-  std::vector<std::size_t> present;
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    if (dominators[p] == 0) present.push_back(p);
-  }
-  for (int number = 0; !present.empty(); ++number) {
-    std::vector<std::size_t> next;
-    for (const std::size_t p : present) {
-      front[p] = number;
-      for (const std::size_t other : dominated[p]) {
-        if (--dominators[other] == 0) next.push_back(other);
-      }
-    }
-    present = std::move(next);
-  }
-  return front;
+  return number;
 }
 
 std::vector<double> crowding_distances(std::span<const std::vector<double>> points,

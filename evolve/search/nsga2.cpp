@@ -108,7 +108,10 @@ std::unique_ptr<Search> make(const SearchSetup& setup) {
 }  // namespace
 
 SearchKind nsga2_search() {
-  return {"nsga2", "the distances of all trials as objectives of their own (NSGA-II)", {}, make};
+  return {"nsga2", "the distances of all trials as objectives of their own (NSGA-II)",
+          {},      make,
+          nullptr, nullptr,
+          true};
 }
 
 }  // namespace metamorph::evolve

@@ -137,8 +137,13 @@ SearchKind nslc_search() {
   }
   settings.push_back({"archive_random", 5, 0, 1e6,
                       "individuals of every generation, drawn by chance, that nslc archives"});
-  return {"nslc", "novelty and better than the nearest (novelty search with local competition)",
-          std::move(settings), make, axis_faults};
+  return {"nslc",
+          "novelty and better than the nearest (novelty search with local competition)",
+          std::move(settings),
+          make,
+          axis_faults,
+          nullptr,
+          true};
 }
 
 }  // namespace metamorph::evolve

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -121,6 +122,46 @@ TEST(Evaluator, ThreadsAndIdenticalWorkDoneOnceChangeNoBit) {
     EXPECT_EQ(other.work().bodies, bodies_in(later));
     EXPECT_EQ(other.work().simulated, 0);
   }
+}
+
+// More than are developed at a time; the last ones are copies of the first.
+TEST(Evaluator, BlocksOfAGenerationChangeNoBit) {
+  Experiment e = tiny_experiment("simple", 2);
+  e.development.steps = 60;
+  e.development.max_cells = 8;
+  e.min_cells = 3;
+  e.trials[0].stage = 40;
+  e.trials[1].stage = 60;
+  for (NamedScene& named : e.scenes) named.scene.run_steps = 2;
+  const std::size_t distinct = Evaluator::most_at_once + 50, all = distinct + 100;
+  e.neat.population = static_cast<int>(distinct);
+  std::vector<Genome> genomes = first_generation(e.neat, 5).genomes;
+  genomes.insert(genomes.end(), genomes.begin(), genomes.begin() + 100);
+  const std::vector<core::Network> networks = networks_of(genomes);
+  const std::vector<std::uint8_t> both = {1, 1};
+  Evaluator evaluator(rules_of(e), 2);
+  const auto results = evaluator.evaluate(networks, both, 0);
+  ASSERT_EQ(results.size(), all);
+  EXPECT_EQ(evaluator.work().developed, static_cast<std::int64_t>(distinct));
+  EXPECT_GT(evaluator.work().simulated, 0);
+  std::set<std::string> different;
+  for (std::size_t i = 0; i < all; ++i) {
+    if (i >= distinct) {
+      EXPECT_EQ(text_of(results[i]), text_of(results[i - distinct])) << i;
+    }
+    different.insert(text_of(results[i]));
+    if (i % 97 != 0 && (i < Evaluator::most_at_once - 3 || i > Evaluator::most_at_once + 3))
+      continue;
+    EXPECT_EQ(text_of(results[i]),
+              text_of(Evaluator(rules_of(e), 1).evaluate({&networks[i], 1}, both, 0).front()))
+        << i;
+  }
+  EXPECT_GT(different.size(), 10u);
+  // Once more: all of them are known, in whichever block they stood.
+  const auto again = evaluator.evaluate(networks, both, 0);
+  EXPECT_EQ(evaluator.work().developed, 0);
+  EXPECT_EQ(evaluator.work().simulated, 0);
+  for (std::size_t i = 0; i < all; ++i) EXPECT_EQ(text_of(again[i]), text_of(results[i])) << i;
 }
 
 }  // namespace

@@ -121,8 +121,15 @@ struct EvaluationWork {
 /// known by that copy's fingerprint: starts that every generation has are known again, renewed ones
 /// are not. Where a trial renews its starts the bodies are kept as well, some 60 KB per individual,
 /// so that what lives on is moved again without being developed again.
+///
+/// What an evaluation throws (std::bad_alloc first of all) leaves on one thread whatever the number
+/// of threads; the evaluator then knows less, and goes on with the same results.
 class Evaluator {
  public:
+  /// So many individuals are developed, and so many simulations prepared, at a time: enough to keep
+  /// threads busy, and all the memory for embryos and bodies that a generation of any size takes.
+  static constexpr std::size_t most_at_once = 4096;
+
   /// `threads` 0: all. With `checked` (borrowed) the links of every development are checked and
   /// counted there, and a difference is thrown as std::runtime_error.
   explicit Evaluator(EvaluationRules rules, int threads = 0, CheckedLinks* checked = nullptr);

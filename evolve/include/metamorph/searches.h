@@ -70,6 +70,7 @@ struct SearchKind {
   std::vector<Contradiction> (*contradictions)(const SearchSetup& setup) = nullptr;  ///< may be 0
   /// What a person should know of a setup that works, but not as it says, one line each; may be 0.
   std::vector<std::string> (*notes)(const SearchSetup& setup) = nullptr;
+  bool keeps_pool = false;  ///< neat.population parents live on beside as many children
 };
 
 /// All kinds.
