@@ -1,11 +1,15 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <new>
 #include <string>
 #include <vector>
 
 #include "evolve/app/commands.h"
+#include "evolve/app/streams.h"
 #include "evolve/files/input_error.h"
+#include "evolve/files/printable.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -31,7 +35,7 @@ std::string fault_line(const CLI::App& app, const CLI::ParseError& error) {
   for (char& c : what) {
     if (c == '\n') c = ' ';
   }
-  return command + ": " + what + " (see " + command + " --help)";
+  return command + ": " + printable(what) + " (see " + command + " --help)";
 }
 
 int run(int argc, char** argv) {
@@ -43,13 +47,20 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    std::fprintf(stderr, "%s\n", fault_line(app, error).c_str());
+    tell("{}\n", fault_line(app, error));
     return exit_input;
   } catch (const InputError& error) {
-    for (const std::string& line : error.lines()) std::fprintf(stderr, "%s\n", line.c_str());
+    for (const std::string& line : error.lines()) tell("{}\n", line);
     return exit_input;
+  } catch (const std::filesystem::filesystem_error& error) {
+    tell("{}: {}\n", printable(error.path1().string()), error.code().message());
+    return exit_input;
+  } catch (const std::bad_alloc&) {
+    tell("metamorph: not enough memory\n");
+    return exit_failure;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "metamorph: %s\n", error.what());
+    // That standard output fails is told at the end, for all commands.
+    if (std::ferror(stdout) == 0) tell("metamorph: {}\n", printable(error.what()));
     return exit_failure;
   }
   return 0;
@@ -58,4 +69,9 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace metamorph::evolve
 
-int main(int argc, char** argv) { return metamorph::evolve::run(argc, argv); }
+int main(int argc, char** argv) {
+  using namespace metamorph::evolve;
+  prepare_streams();
+  const int code = run(argc, argv);
+  return finish_output() || code != 0 ? code : exit_failure;
+}
