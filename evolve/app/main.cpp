@@ -1,5 +1,8 @@
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -38,6 +41,14 @@ std::string fault_line(const CLI::App& app, const CLI::ParseError& error) {
   return command + ": " + printable(what) + " (see " + command + " --help)";
 }
 
+/// Ends the program where memory is asked for, in whatever thread: destructors of JSON need some
+/// themselves, and what they throw ends the program without a word. No file is left half written.
+[[noreturn]] void out_of_memory() {
+  constexpr char line[] = "metamorph: not enough memory\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line, sizeof line - 1);
+  std::_Exit(exit_failure);
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Evolves soft-bodied robots that change their shape.", "metamorph");
   app.set_version_flag("--version", "metamorph " METAMORPH_VERSION);
@@ -55,9 +66,6 @@ int run(int argc, char** argv) {
   } catch (const std::filesystem::filesystem_error& error) {
     tell("{}: {}\n", printable(error.path1().string()), error.code().message());
     return exit_input;
-  } catch (const std::bad_alloc&) {
-    tell("metamorph: not enough memory\n");
-    return exit_failure;
   } catch (const std::exception& error) {
     // That standard output fails is told at the end, for all commands.
     if (std::ferror(stdout) == 0) tell("metamorph: {}\n", printable(error.what()));
@@ -72,6 +80,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace metamorph::evolve;
   prepare_streams();
+  std::set_new_handler(out_of_memory);
   const int code = run(argc, argv);
   return finish_output() || code != 0 ? code : exit_failure;
 }

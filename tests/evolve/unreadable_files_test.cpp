@@ -177,6 +177,25 @@ TEST_F(Unreadable, DeepNesting) {
   }
 }
 
+// Address sanitizers take more than is left here, and have a handler of their own.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool is_sanitized = true;
+#elif defined(__has_feature)
+constexpr bool is_sanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+constexpr bool is_sanitized = false;
+#endif
+
+TEST_F(Unreadable, MoreThanMemoryHolds) {
+  if (is_sanitized) GTEST_SKIP() << "a sanitizer needs more memory";
+  std::string text = "{\"a\": [[]";
+  for (int i = 0; i < 15000000; ++i) text += ",[]";
+  write("many.json", text + "]}");
+  const auto result = tests::run_program(here(), "simulate many.json", "", "ulimit -v 500000");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err_lines(), ElementsAre("metamorph: not enough memory"));
+}
+
 TEST_F(Unreadable, OfVeryManyFaultsTheFirstAreTold) {
   std::string text = "{\"format\": \"metamorph-body/1\", \"nodes\": [0";
   for (int i = 1; i < 500; ++i) text += ",0";
