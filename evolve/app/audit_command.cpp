@@ -4,12 +4,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "evolve/app/commands.h"
+#include "evolve/app/json_line.h"
 #include "evolve/app/options.h"
+#include "evolve/app/streams.h"
+#include "evolve/files/printable.h"
 #include "evolve/run/audit.h"
 #include "evolve/run/elite_audit.h"
 #include "metamorph/status.h"
@@ -70,7 +72,7 @@ void print_trial_json(const ChampionAudit& champion, std::size_t t, const Trial&
                  {"reference", champion.reference_eq6},
                  {"deviation", champion.deviation},
                  {"same_bits", champion.same_bits}};
-  fmt::print("{}\n", json.dump());
+  fmt::print("{}\n", json_line(json));
 }
 
 void print_json(const RunAudit& audited, const RunReader& run, const Experiment& experiment) {
@@ -80,7 +82,7 @@ void print_json(const RunAudit& audited, const RunReader& run, const Experiment&
     }
   }
   nlohmann::ordered_json json;
-  json["run"] = run.file().string();
+  json["run"] = printable(run.file().string());
   json["experiment"] = experiment.name;
   json["champions"] = audited.champions.size();
   json["distinct_champions"] = audited.distinct;
@@ -109,7 +111,7 @@ void print_json(const RunAudit& audited, const RunReader& run, const Experiment&
                          {"luck", json_of(summary.luck)}};
     }
   }
-  fmt::print("{}\n", json.dump());
+  fmt::print("{}\n", json_line(json));
 }
 
 void print_row(const ChampionAudit& champion, const std::string& what, const std::string& status,
@@ -226,7 +228,7 @@ void print_summary(const RunAudit& audited, const Experiment& experiment) {
 std::function<void(int, int)> progress_of(const char* what) {
   if (isatty(STDERR_FILENO) == 0) return {};
   return [what](int done, int all) {
-    std::fprintf(stderr, "\r%d of %d %s%s", done, all, what, done == all ? "\n" : "");
+    tell("\r{} of {} {}{}", done, all, what, done == all ? "\n" : "");
   };
 }
 
@@ -251,14 +253,16 @@ void print_map_json(const MapAudit& audited, const RunReader& run, int starts) {
                                          {"individual", elite.individual},
                                          {"recorded", elite.recorded},
                                          {"corrected", elite.corrected}};
-    fmt::print("{}\n", json.dump());
+    fmt::print("{}\n", json_line(json));
   }
-  const nlohmann::ordered_json json = {
-      {"run", run.file().string()},         {"filled", audited.elites.size()},
-      {"niches", audited.niches},           {"starts", starts},
-      {"qd_score", audited.qd_score},       {"corrected_qd_score", audited.corrected},
-      {"fallen_below_half", audited.fallen}};
-  fmt::print("{}\n", json.dump());
+  const nlohmann::ordered_json json = {{"run", printable(run.file().string())},
+                                       {"filled", audited.elites.size()},
+                                       {"niches", audited.niches},
+                                       {"starts", starts},
+                                       {"qd_score", audited.qd_score},
+                                       {"corrected_qd_score", audited.corrected},
+                                       {"fallen_below_half", audited.fallen}};
+  fmt::print("{}\n", json_line(json));
 }
 
 void audit_map(const Arguments& given) {

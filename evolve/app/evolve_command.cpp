@@ -9,6 +9,7 @@
 
 #include "evolve/app/commands.h"
 #include "evolve/app/progress.h"
+#include "evolve/app/streams.h"
 #include "evolve/experiment/experiment_file.h"
 #include "evolve/files/input_error.h"
 #include "evolve/run/memory_check.h"
@@ -52,10 +53,7 @@ void handle_signals() {
     sigaction(signal, nullptr, &before);
     if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // nohup stays nohup
   }
-  // A file-size limit shall be a fault of the record with its own line, and whoever no longer reads
-  // the progress is no reason to stop.
-  action.sa_handler = SIG_IGN;
-  for (const int signal : {SIGXFSZ, SIGPIPE}) sigaction(signal, &action, nullptr);
+  ignore_broken_pipes();  // whoever no longer reads the progress is no reason to stop
 }
 
 std::vector<Override> overrides_of(const Arguments& given) {
@@ -84,7 +82,7 @@ std::unique_ptr<Record> open_record(const Arguments& given) {
     require_memory(experiment, given.threads);
     const SearchSetup setup = search_setup_of(experiment, given.threads);
     if (const auto notes = search_kind(experiment.search.kind).notes; notes != nullptr) {
-      for (const std::string& note : notes(setup)) fmt::print(stderr, "note: {}\n", note);
+      for (const std::string& note : notes(setup)) tell("note: {}\n", note);
     }
     return std::make_unique<Record>(
         given.out.empty() ? default_directory(experiment) : std::filesystem::path(given.out),
@@ -147,7 +145,7 @@ void evolve(const Arguments& given) {
                                            {&pictures, &progress},
                                            given.check_links ? &checked : nullptr});
   if (!pictures.failure().empty()) {
-    fmt::print(stderr, "no picture of the best: {}\n", pictures.failure());
+    tell("no picture of the best: {}\n", pictures.failure());
   }
   if (given.check_links) {
     fmt::print("{} links at {} renewals of {} developments: all as a full triangulation has them\n",

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <functional>
-#include <iostream>
 #include <memory>
 
 #include "evolve/app/commands.h"
@@ -20,7 +19,7 @@ struct Arguments {
   std::string run, champion, table, out;
   bool configuration = false;
   bool list = false;
-  bool force = false;
+  bool overwrite = false;
 };
 
 Champion chosen_champion(const RunReader& run, const std::string& which) {
@@ -53,10 +52,10 @@ void export_run(const Arguments& given) {
   if (asked != 1) {
     throw InputError("export: expected one of --champion, --table, --configuration and --list");
   }
-  const Overwrite overwrite = given.force ? Overwrite::yes : Overwrite::no;
+  const Overwrite overwrite = given.overwrite ? Overwrite::yes : Overwrite::no;
   const RunReader run(given.run);
   if (given.out.empty()) {
-    export_to(run, given, [](std::string_view text) { std::cout << text; });
+    export_to(run, given, [](std::string_view text) { fmt::print("{}", text); });
     return;
   }
   OutputFile file(given.out, overwrite);
@@ -77,7 +76,7 @@ void add_export_command(CLI::App& app) {
   command->add_flag("--configuration", given->configuration, "the complete experiment (TOML)");
   command->add_flag("--list", given->list, "names of the tables");
   command->add_option("--out", given->out, "file to write; default: standard output");
-  command->add_flag("--force", given->force, "overwrite the file");
+  command->add_flag("--overwrite,--force", given->overwrite, "replace a file that exists");
   command->callback([given] { export_run(*given); });
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/development/link_check.h"
 #include "evolve/app/commands.h"
+#include "evolve/app/json_line.h"
 #include "evolve/app/options.h"
 #include "evolve/app/rules_options.h"
 #include "evolve/files/body_file.h"
@@ -18,6 +19,7 @@
 #include "evolve/files/genome_file.h"
 #include "evolve/files/input_error.h"
 #include "evolve/files/output_file.h"
+#include "evolve/files/printable.h"
 #include "evolve/view/draw.h"
 #include "metamorph/development.h"
 #include "metamorph/extraction.h"
@@ -60,14 +62,15 @@ std::vector<Grown> grow(const Genome& genome, const Experiment& experiment,
   return result;
 }
 
-void draw(const std::vector<Grown>& all, const std::vector<int>& starts, const fs::path& file) {
+void draw(const std::vector<Grown>& all, const std::vector<int>& starts, const fs::path& file,
+          Overwrite overwrite) {
   std::vector<core::Embryo> embryos;
   std::vector<core::Body> bodies;
   for (const Grown& grown : all) {
     embryos.push_back(grown.embryo);
     bodies.push_back(grown.extraction.body);
   }
-  write_sheet(development_sheet(embryos, bodies, starts), file.string());
+  write_sheet(development_sheet(embryos, bodies, starts), file.string(), overwrite);
 }
 
 void print(const std::vector<Grown>& all, bool as_json) {
@@ -80,7 +83,7 @@ void print(const std::vector<Grown>& all, bool as_json) {
     if (!as_json) {
       fmt::print("{:<4}  {:>5}  {:>7}  {:>4}  {:<15}  {:>5}  {:>7}  {:>9}  {}\n", embryo.step,
                  embryo.cell_count(), embryo.created, embryo.died, status, body.node_count(),
-                 body.springs.size(), body.triangles.size(), grown.embryo_file.string());
+                 body.springs.size(), body.triangles.size(), printable(grown.embryo_file.string()));
       continue;
     }
     nlohmann::ordered_json object = {{"step", embryo.step},
@@ -91,12 +94,11 @@ void print(const std::vector<Grown>& all, bool as_json) {
                                      {"cells", body.node_count()},
                                      {"springs", body.springs.size()},
                                      {"triangles", body.triangles.size()},
-                                     {"embryo_file", grown.embryo_file.string()}};
+                                     {"embryo_file", printable(grown.embryo_file.string())}};
     if (grown.extraction.status == core::Status::ok) {
-      object["body_file"] = grown.body_file.string();
+      object["body_file"] = printable(grown.body_file.string());
     }
-    fmt::print("{}\n",
-               object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    fmt::print("{}\n", json_line(object));
   }
 }
 
@@ -149,9 +151,9 @@ void grow_command(const GrowOptions& options) {
       write_body(grown.body_file, grown.extraction.body, overwrite);
     }
   }
-  if (with_picture) draw(all, experiment.metamorphoses(), picture);
+  if (with_picture) draw(all, experiment.metamorphoses(), picture, overwrite);
   print(all, options.json);
-  if (with_picture && !options.json) fmt::print("picture: {}\n", picture.string());
+  if (with_picture && !options.json) fmt::print("picture: {}\n", printable(picture.string()));
   if (options.check_links && !options.json) {
     fmt::print("{} links at {} renewals: all as a full triangulation has them\n", check.links,
                check.renewals);

@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "evolve/app/commands.h"
+#include "evolve/app/json_line.h"
 #include "evolve/app/text.h"
 #include "evolve/experiment/keys.h"
+#include "evolve/files/printable.h"
 #include "evolve/run/run_reader.h"
 #include "metamorph/status.h"
 
@@ -75,7 +77,7 @@ void print_health(const SearchHealth& health) {
 
 void print_json(const RunReader& run, const Experiment& experiment) {
   nlohmann::ordered_json json;
-  json["run"] = run.file().string();
+  json["run"] = printable(run.file().string());
   json["experiment"] = experiment.name;
   json["seed"] = experiment.seed;
   json["generations"] = run.generations_done();
@@ -103,7 +105,7 @@ void print_json(const RunReader& run, const Experiment& experiment) {
                   {"simulated", work.simulated}};
   add_health(json, run.health());
   for (const auto& [key, value] : run.last_session()) json["session"][key] = value;
-  fmt::print("{}\n", json.dump());
+  fmt::print("{}\n", json_line(json));
 }
 
 /// How a trial's starts count, where they are not one body as it is.
@@ -116,7 +118,7 @@ std::string starts_text(const Trial& trial) {
 
 void print_text(const RunReader& run, const Experiment& experiment) {
   const int done = run.generations_done();
-  fmt::print("{}\n", run.file().string());
+  fmt::print("{}\n", printable(run.file().string()));
   fmt::print("experiment   {}, seed {}\n", experiment.name, experiment.seed);
   for (const Trial& trial : experiment.trials) {
     fmt::print("trial        {}: {} at step {}{}\n", trial.name, trial.scene, trial.stage,

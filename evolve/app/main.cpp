@@ -1,14 +1,18 @@
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
-#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <vector>
 
 #include "evolve/app/commands.h"
+#include "evolve/app/streams.h"
 #include "evolve/files/input_error.h"
+#include "evolve/files/printable.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -34,23 +38,20 @@ std::string fault_line(const CLI::App& app, const CLI::ParseError& error) {
   for (char& c : what) {
     if (c == '\n') c = ' ';
   }
-  return command + ": " + what + " (see " + command + " --help)";
+  return command + ": " + printable(what) + " (see " + command + " --help)";
 }
 
-/// Kept for the way out: what is destroyed there may allocate (nlohmann's JSON does, by the length
-/// of its lists), and would end the program in an abort. Never written, it takes address space
-/// alone.
-constexpr std::size_t reserve_size = 32 << 20;
-std::atomic<void*> reserve;
-
-void give_up() {
-  std::free(reserve.exchange(nullptr));
-  throw std::bad_alloc();
+/// Ends the program where memory is asked for, in whatever thread: destructors of JSON need some
+/// themselves, and what they throw ends the program without a word. No file is left half written.
+[[noreturn]] void out_of_memory() {
+  constexpr char line[] =
+      "metamorph: out of memory: expected more of it, or less at once; what a run has recorded is "
+      "safe\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line, sizeof line - 1);
+  std::_Exit(exit_failure);
 }
 
 int run(int argc, char** argv) {
-  reserve = std::malloc(reserve_size);
-  std::set_new_handler(give_up);
   CLI::App app("Evolves soft-bodied robots that change their shape.", "metamorph");
   app.set_version_flag("--version", "metamorph " METAMORPH_VERSION);
   app.require_subcommand(1);
@@ -59,18 +60,17 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    std::fprintf(stderr, "%s\n", fault_line(app, error).c_str());
+    tell("{}\n", fault_line(app, error));
     return exit_input;
   } catch (const InputError& error) {
-    for (const std::string& line : error.lines()) std::fprintf(stderr, "%s\n", line.c_str());
+    for (const std::string& line : error.lines()) tell("{}\n", line);
     return exit_input;
-  } catch (const std::bad_alloc&) {
-    std::fprintf(stderr,
-                 "metamorph: out of memory: expected more of it, or less at once; what a run has "
-                 "recorded is safe\n");
-    return exit_failure;
+  } catch (const std::filesystem::filesystem_error& error) {
+    tell("{}: {}\n", printable(error.path1().string()), error.code().message());
+    return exit_input;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "metamorph: %s\n", error.what());
+    // That standard output fails is told at the end, for all commands.
+    if (std::ferror(stdout) == 0) tell("metamorph: {}\n", printable(error.what()));
     return exit_failure;
   }
   return 0;
@@ -79,4 +79,10 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace metamorph::evolve
 
-int main(int argc, char** argv) { return metamorph::evolve::run(argc, argv); }
+int main(int argc, char** argv) {
+  using namespace metamorph::evolve;
+  prepare_streams();
+  std::set_new_handler(out_of_memory);
+  const int code = run(argc, argv);
+  return finish_output() || code != 0 ? code : exit_failure;
+}

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-
+#include "evolve/app/streams.h"
 #include "evolve/app/text.h"
+#include "evolve/files/printable.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -23,8 +23,9 @@ void Progress::started(const RunStart& start) {
   start_ = std::chrono::steady_clock::now();
   first_generation_ = start.first_generation;
   const Experiment& e = start.experiment;
-  fmt::print(stderr, "{}: seed {}, {} individuals, generations {} to {}, in {}\n", e.name, e.seed,
-             e.neat.population, start.first_generation, e.generations, start.directory.string());
+  tell("{}: seed {}, {} individuals, generations {} to {}, in {}\n", e.name, e.seed,
+       e.neat.population, start.first_generation, e.generations,
+       printable(start.directory.string()));
 }
 
 void Progress::generation_done(const GenerationReport& report) {
@@ -46,9 +47,8 @@ void Progress::generation_done(const GenerationReport& report) {
   }
   if (const int near = count_near_step_limit(report.result); near > 0 && !warned_of_steps_) {
     warned_of_steps_ = true;
-    if (line_open_) fmt::print(stderr, "\n");
-    fmt::print(
-        stderr,
+    if (line_open_) tell("\n");
+    tell(
         "warning: evaluations {}: {} in generation {} (told once); step = \"auto\" chooses it for "
         "each body\n",
         near_limit_text(), near, generation + 1);
@@ -60,21 +60,20 @@ void Progress::generation_done(const GenerationReport& report) {
                   failures > 0 ? fmt::format("  {} failed", failures) : "");
   if (terminal_) {
     // Back to the start of the line, and clear it.
-    fmt::print(stderr, "\r\033[K{}", line);
-    std::fflush(stderr);
+    tell("\r\033[K{}", line);
     line_open_ = true;
     return;
   }
   const bool better = report.best.eq6 > 1.1 * last_best_;
   if (better || done <= 3 || elapsed - last_log_ >= log_interval || generation + 1 == total) {
-    fmt::print(stderr, "{}\n", line);
+    tell("{}\n", line);
     last_log_ = elapsed;
     last_best_ = report.best.eq6;
   }
 }
 
 void Progress::finished(const RunSummary& summary) {
-  if (line_open_) fmt::print(stderr, "\n");
+  if (line_open_) tell("\n");
   const double total = summary.seconds.total();
   if (total <= 0) return;
   std::string phases;
@@ -83,9 +82,9 @@ void Progress::finished(const RunSummary& summary) {
     phases += fmt::format("{}{} {:.1f} %", i == 0 ? "" : ", ", PhaseSeconds::names[i],
                           100 * values[i] / total);
   }
-  fmt::print(stderr, "{} of computing: {}\n", duration_text(total), phases);
+  tell("{} of computing: {}\n", duration_text(total), phases);
   if (const std::string saved = saved_text(summary.work); !saved.empty()) {
-    fmt::print(stderr, "known already: {}\n", saved);
+    tell("known already: {}\n", saved);
   }
   std::string statuses;
   for (const core::Status status : core::all_statuses) {
@@ -94,9 +93,9 @@ void Progress::finished(const RunSummary& summary) {
       statuses += fmt::format("{}{} {}", statuses.empty() ? "" : ", ", core::name(status), count);
     }
   }
-  fmt::print(stderr, "evaluations by status: {}\n", statuses);
+  tell("evaluations by status: {}\n", statuses);
   if (summary.near_step_limit > 0) {
-    fmt::print(stderr, "evaluations {}: {}\n", near_limit_text(), summary.near_step_limit);
+    tell("evaluations {}: {}\n", near_limit_text(), summary.near_step_limit);
   }
 }
 

@@ -15,6 +15,7 @@
 #include "evolve/files/genome_file.h"
 #include "evolve/files/input_error.h"
 #include "evolve/files/output_file.h"
+#include "evolve/files/printable.h"
 #include "evolve/run/pictures.h"
 #include "evolve/run/run_reader.h"
 #include "evolve/view/motion.h"
@@ -55,11 +56,15 @@ Subject subject_of_run(const RenderOptions& options) {
   return subject;
 }
 
+/// The name of a file as a heading.
+std::string stem_of(const std::string& file) {
+  return printable(std::filesystem::path(file).stem().string());
+}
+
 Subject subject_of_genome(const RenderOptions& options) {
   Experiment experiment = experiment_of(options.rules);
   Genome genome = read_genome(options.source, experiment.development);
-  return {std::move(experiment), std::move(genome),
-          std::filesystem::path(options.source).stem().string()};
+  return {std::move(experiment), std::move(genome), stem_of(options.source)};
 }
 
 std::vector<core::Outcome> outcomes_of(const Subject& subject) {
@@ -155,7 +160,7 @@ Sheet sheet_of_body(const RenderOptions& options) {
     sheet.remark = fmt::format("{} nodes, {} springs, {} triangles", body.node_count(),
                                body.springs.size(), body.triangles.size());
   }
-  sheet.heading = std::filesystem::path(options.source).stem().string();
+  sheet.heading = stem_of(options.source);
   return sheet;
 }
 
@@ -176,7 +181,8 @@ void render(const RenderOptions& options) {
   if (!is_picture_file(options.out)) {
     throw InputError("--out: " + options.out + ": expected a name that ends in .svg, .png or .pdf");
   }
-  check_writable(options.out, options.overwrite ? Overwrite::yes : Overwrite::no);
+  const Overwrite overwrite = options.overwrite ? Overwrite::yes : Overwrite::no;
+  check_writable(options.out, overwrite);
   Sheet sheet;
   const RulesOptions& rules = options.rules;
   if (is_run(options.source)) {
@@ -194,8 +200,8 @@ void render(const RenderOptions& options) {
            "expected a body: a genome moves in the scene of its trial (--trial)");
     sheet = sheet_of(subject_of_genome(options), options);
   }
-  write_sheet(sheet, options.out);
-  fmt::print("{}\n", options.out);
+  write_sheet(sheet, options.out, overwrite);
+  fmt::print("{}\n", printable(options.out));
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -11,6 +10,7 @@
 #include "evolve/app/commands.h"
 #include "evolve/app/options.h"
 #include "evolve/app/rules_options.h"
+#include "evolve/app/streams.h"
 #include "evolve/app/text.h"
 #include "evolve/files/animat_file.h"
 #include "evolve/files/input_error.h"
@@ -50,7 +50,7 @@ core::Scene scene_to_run(const Experiment& experiment, const SimulateOptions& op
   return scene;
 }
 
-std::vector<Animat> animats_of(const Experiment& experiment, const SimulateOptions& options) {
+AnimatFiles animats_of(const Experiment& experiment, const SimulateOptions& options) {
   BodyChoice choice;
   choice.rules = experiment.development;
   choice.switches = experiment.metamorphoses();
@@ -108,8 +108,8 @@ void warn_of_steps(const std::vector<Animat>& animats, const core::Scene& scene,
         100 * phase.margin);
   }
   if (close == 0) return;
-  fmt::print(stderr, "warning: {}{}; --dt auto chooses one\n", first,
-             close == 1 ? "" : fmt::format(", and so for {} of {} bodies", close, bodies));
+  tell("warning: {}{}; --dt auto chooses one\n", first,
+       close == 1 ? "" : fmt::format(", and so for {} of {} bodies", close, bodies));
 }
 
 /// Steps that no body of these could be moved with are a mistake of who asks, like a fault in a
@@ -145,7 +145,7 @@ void tell_work(const std::vector<Animat>& animats, const core::Scene& scene,
   const int threads = core::thread_count(options.threads);
   const std::string work =
       work_text(most_steps, spring_steps, std::clamp(threads, 1, std::max(bodies, 1)));
-  if (!work.empty()) fmt::print(stderr, "long work: {}\n", work);
+  if (!work.empty()) tell("long work: {}\n", work);
 }
 
 core::Outcome simulate_with_trajectory(const Animat& animat, const core::Scene& given,
@@ -189,7 +189,9 @@ void simulate_command(const SimulateOptions& options) {
   const Experiment experiment = experiment_of(options.rules);
   const core::Scene scene = scene_to_run(experiment, options);
   const core::LocomotionOptions locomotion = locomotion_of(experiment, options.threads);
-  const std::vector<Animat> animats = animats_of(experiment, options);
+  const AnimatFiles files = animats_of(experiment, options);
+  const std::vector<Animat>& animats = files.animats;
+  for (const std::string& line : files.faults) tell("{}\n", line);
   check_steps(animats, scene);
   tell_work(animats, scene, locomotion);
   warn_of_steps(animats, scene, locomotion.method);
@@ -201,13 +203,15 @@ void simulate_command(const SimulateOptions& options) {
   } else {
     throw InputError(fmt::format("--trajectory: {} bodies: expected one", animats.size()));
   }
-  if (!options.json) {
-    print_table(animats, outcomes);
-    return;
-  }
-  for (std::size_t i = 0; i < animats.size(); ++i) {
+  if (!options.json) print_table(animats, outcomes);
+  for (std::size_t i = 0; options.json && i < animats.size(); ++i) {
     fmt::print("{}\n",
                outcome_json({{"file", animats[i].name}, {"scene", scene.name}}, outcomes[i]));
+  }
+  if (files.refused > 0) {
+    throw InputError(fmt::format("simulate: {} of {} files refused, the others were simulated",
+                                 files.refused,
+                                 animats.size() + static_cast<std::size_t>(files.refused)));
   }
 }
 
@@ -219,6 +223,8 @@ void add_simulate_command(CLI::App& app) {
                                          "Moves bodies in a scene and prints how far they got. "
                                          "Several files, or those of a directory, "
                                          "run as one batch; a genome is developed first. "
+                                         "Files of a directory that cannot be used are named "
+                                         "and left out. "
                                          "Every body moves once, from where it is, also where "
                                          "a trial has several starts.");
   command

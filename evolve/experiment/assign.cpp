@@ -62,8 +62,12 @@ bool assign(const Key& key, const toml::node& node, std::string& fault) {
       return true;
     }
     bool operator()(std::uint64_t* field) const {
+      // As integers: 2^53 + 1 as a double is 2^53.
       const auto value = node.value_exact<std::int64_t>();
-      if (!value || !in_range(static_cast<double>(*value))) return false;
+      if (!value || *value < static_cast<std::int64_t>(key.low) ||
+          *value > static_cast<std::int64_t>(key.high)) {
+        return false;
+      }
       *field = static_cast<std::uint64_t>(*value);
       return true;
     }

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <toml++/toml.h>
-
 #include <string>
 #include <string_view>
 
 #include "evolve/experiment/keys.h"
+#include "evolve/experiment/toml.h"
 
 namespace metamorph::evolve {
 

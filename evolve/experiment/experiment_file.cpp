@@ -2,20 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <toml++/toml.h>
 #include <algorithm>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "evolve/experiment/assign.h"
 #include "evolve/experiment/contradictions.h"
 #include "evolve/experiment/keys.h"
 #include "evolve/experiment/nearest_name.h"
+#include "evolve/experiment/toml.h"
 #include "evolve/files/input_error.h"
+#include "evolve/files/input_file.h"
 
 namespace metamorph::evolve {
 namespace {
+
+/// Tables within tables are left one call deep each, and a key of two bytes makes one: what is
+/// longer could overflow the stack. An experiment needs a twentieth.
+constexpr std::size_t longest_text = std::size_t{128} << 10;
 
 std::string join_path(std::string_view section, std::string_view key) {
   return section.empty() ? std::string(key) : fmt::format("{}.{}", section, key);
@@ -28,6 +31,10 @@ class Reader {
       : source_(std::move(source)), overrides_(overrides) {}
 
   Experiment read(std::string_view text) {
+    if (text.size() > longest_text) {
+      throw InputError(
+          fmt::format("{}: too long: expected at most {} KiB", source_, longest_text >> 10));
+    }
     toml::table file;
     try {
       file = toml::parse(text, source_);
@@ -283,13 +290,7 @@ Experiment parse_experiment(std::string_view text, const std::string& source,
 
 Experiment read_experiment(const std::filesystem::path& file,
                            const std::vector<Override>& overrides) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || std::filesystem::is_directory(file) || !(text << stream.rdbuf())) {
-    throw InputError(
-        fmt::format("{}: cannot be read: expected an experiment file (TOML)", file.string()));
-  }
-  return parse_experiment(text.str(), file.string(), overrides);
+  return parse_experiment(read_text(file), file.string(), overrides);
 }
 
 std::string to_toml(const Experiment& experiment) {

@@ -8,7 +8,9 @@
 #include "evolve/files/embryo_file.h"
 #include "evolve/files/genome_file.h"
 #include "evolve/files/input_error.h"
+#include "evolve/files/input_file.h"
 #include "evolve/files/json_text.h"
+#include "evolve/files/printable.h"
 #include "metamorph/extraction.h"
 
 namespace metamorph::evolve {
@@ -34,11 +36,8 @@ void grow(std::vector<Animat>& animats, const std::vector<std::size_t>& places,
   }
 }
 
-using Faults = std::vector<std::string>;
-
-/// The *.json files of a directory, ascending by name.
-std::vector<std::filesystem::path> files_in(const std::filesystem::path& directory,
-                                            Faults& faults) {
+/// The *.json files of a directory, ascending by name. Throws InputError if it cannot be read.
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& directory) {
   std::vector<std::filesystem::path> files;
   std::error_code error;
   for (std::filesystem::directory_iterator entry(directory, error), end; !error && entry != end;
@@ -46,7 +45,7 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& directo
     if (entry->path().extension() == ".json") files.push_back(entry->path());
   }
   if (error) {
-    faults.push_back(directory.string() + ": " + error.message() +
+    throw InputError(directory.string() + ": " + error.message() +
                      ": expected a directory that can be read");
   }
   std::sort(files.begin(), files.end());
@@ -56,62 +55,76 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& directo
 /// Bodies as they are read, genomes as networks with their places among the animats.
 struct Reading {
   const BodyChoice& choice;
-  std::vector<Animat> animats;
-  std::vector<std::size_t> places;
-  std::vector<std::vector<core::Network>> lives;
-  Faults faults;
+  std::vector<Animat> animats = {};
+  std::vector<std::size_t> places = {};
+  std::vector<std::vector<core::Network>> lives = {};
 
+  /// Throws InputError.
   void read(const std::filesystem::path& file, bool skip_embryo) {
-    const std::string name = file.string();
-    try {
-      const std::string text = detail::read_text(file);
-      const std::string format = format_of(text, name);
-      if (format == body_format) {
-        animats.push_back({name, core::Status::ok, parse_body(text, name)});
-      } else if (format == genome_format) {
-        const Genome genome = parse_genome(text, name);
-        check_fits(genome, choice.rules, name);
-        lives.push_back(compile_stages(genome, shape_of(choice.rules),
-                                       static_cast<int>(choice.switches.size()) + 1));
-        places.push_back(animats.size());
-        animats.push_back({name, core::Status::ok, {}});
-      } else if (!(skip_embryo && format == embryo_format)) {
-        FaultList fault(name);
-        fault.add("format", format.empty() ? "missing" : format,
-                  "metamorph-body/1 or metamorph-genome/1");
-        fault.throw_if_any();
-      }
-    } catch (const InputError& error) {
-      faults.insert(faults.end(), error.lines().begin(), error.lines().end());
+    const std::string source = file.string();
+    const std::string name = printable(source);
+    const std::string text = read_text(file);
+    const std::string format = format_of(text, source);
+    if (format == body_format) {
+      animats.push_back({name, core::Status::ok, parse_body(text, source)});
+    } else if (format == genome_format) {
+      const Genome genome = parse_genome(text, source);
+      check_fits(genome, choice.rules, source);
+      lives.push_back(compile_stages(genome, shape_of(choice.rules),
+                                     static_cast<int>(choice.switches.size()) + 1));
+      places.push_back(animats.size());
+      animats.push_back({name, core::Status::ok, {}});
+    } else if (!(skip_embryo && format == embryo_format)) {
+      FaultList fault(source);
+      fault.add("format", format.empty() ? "missing" : format,
+                "metamorph-body/1 or metamorph-genome/1");
+      fault.throw_if_any();
     }
   }
 };
 
+/// Reads; where that throws, the lines go to `faults`. False then.
+template <class Read>
+bool collect(std::vector<std::string>& faults, Read read) {
+  try {
+    read();
+  } catch (const InputError& error) {
+    faults.insert(faults.end(), error.lines().begin(), error.lines().end());
+    return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string format_of(const std::filesystem::path& file) {
-  return format_of(detail::read_text(file), file.string());
+  return format_of(read_text(file), file.string());
 }
 
-std::vector<Animat> read_animats(const std::vector<std::filesystem::path>& paths,
-                                 const BodyChoice& choice, int threads) {
-  Reading reading{choice, {}, {}, {}, {}};
+AnimatFiles read_animats(const std::vector<std::filesystem::path>& paths, const BodyChoice& choice,
+                         int threads) {
+  Reading reading{choice};
+  AnimatFiles files;
+  bool usable = true;
   for (const std::filesystem::path& path : paths) {
-    std::error_code error;
-    if (!std::filesystem::is_directory(path, error)) {
-      reading.read(path, false);
-      continue;
-    }
-    const std::size_t animats = reading.animats.size();
-    const std::size_t faults = reading.faults.size();
-    for (const auto& file : files_in(path, reading.faults)) reading.read(file, true);
-    if (reading.animats.size() == animats && reading.faults.size() == faults) {
-      reading.faults.push_back(path.string() + ": expected body or genome files (*.json) in it");
-    }
+    const bool good = collect(files.faults, [&] {
+      std::error_code error;
+      if (!std::filesystem::is_directory(path, error)) return reading.read(path, false);
+      const std::size_t before = reading.animats.size();
+      const int refused = files.refused;
+      for (const auto& file : files_in(path)) {
+        if (!collect(files.faults, [&] { reading.read(file, true); })) ++files.refused;
+      }
+      if (reading.animats.size() == before && files.refused == refused) {
+        throw InputError(path.string() + ": expected body or genome files (*.json) in it");
+      }
+    });
+    usable = usable && good;
   }
-  if (!reading.faults.empty()) throw InputError(reading.faults);
+  if (!usable || reading.animats.empty()) throw InputError(files.faults);
   grow(reading.animats, reading.places, reading.lives, choice, threads);
-  return std::move(reading.animats);
+  files.animats = std::move(reading.animats);
+  return files;
 }
 
 }  // namespace metamorph::evolve

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "evolve/files/input_file.h"
 #include "evolve/files/json_text.h"
 
 namespace metamorph::evolve {

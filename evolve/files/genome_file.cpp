@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "evolve/files/input_file.h"
 #include "evolve/files/json_text.h"
 
 namespace metamorph::evolve {

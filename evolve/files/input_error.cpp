@@ -2,14 +2,18 @@
 
 #include <utility>
 
+#include "evolve/files/printable.h"
+
 namespace metamorph::evolve {
 namespace {
 
 constexpr std::size_t longest_value = 60;
+constexpr std::size_t most_lines = 100;  ///< of one file; nobody reads more
 
 std::string joined(const std::vector<std::string>& lines) {
   std::string text;
-  for (const std::string& line : lines) text.append(text.empty() ? "" : "\n").append(line);
+  for (const std::string& line : lines)
+    text.append(text.empty() ? "" : "\n").append(printable(line));
   return text;
 }
 
@@ -31,7 +35,9 @@ std::string shortened(std::string_view value) {
 }  // namespace
 
 InputError::InputError(std::vector<std::string> lines)
-    : std::runtime_error(joined(lines)), lines_(std::move(lines)) {}
+    : std::runtime_error(joined(lines)), lines_(std::move(lines)) {
+  for (std::string& line : lines_) line = printable(line);
+}
 
 void FaultList::add(std::string_view key, std::string_view value, std::string_view expected) {
   std::string line;
@@ -41,11 +47,18 @@ void FaultList::add(std::string_view key, std::string_view value, std::string_vi
 }
 
 void FaultList::add_line(std::string_view text) {
-  lines_.push_back(std::string(source_).append(": ").append(text));
+  if (lines_.size() < most_lines) {
+    lines_.push_back(std::string(source_).append(": ").append(text));
+  } else {
+    ++untold_;
+  }
 }
 
 void FaultList::throw_if_any() const {
-  if (!lines_.empty()) throw InputError(lines_);
+  if (lines_.empty()) return;
+  std::vector<std::string> lines = lines_;
+  if (untold_ > 0) lines.push_back(source_ + ": and " + std::to_string(untold_) + " more");
+  throw InputError(std::move(lines));
 }
 
 }  // namespace metamorph::evolve

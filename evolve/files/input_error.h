@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -8,7 +9,8 @@
 namespace metamorph::evolve {
 
 /// What a person gave cannot be used: one line per fault, each complete in itself
-/// ("file: key: value: expected ..."). The program prints the lines and ends with exit code 2.
+/// ("file: key: value: expected ..."). The program prints the lines and ends with exit code 2. What
+/// no line can show of the names and values in them is escaped (printable.h).
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<std::string> lines);
@@ -20,7 +22,7 @@ class InputError : public std::runtime_error {
   std::vector<std::string> lines_;
 };
 
-/// Collects the faults of one file, so that all of them are told at once.
+/// Collects the faults of one file, so that all of them are told at once; of very many, the first.
 class FaultList {
  public:
   /// `source` starts every line: the file's name, or what else the values came from.
@@ -43,6 +45,7 @@ class FaultList {
  private:
   std::string source_;
   std::vector<std::string> lines_;
+  std::size_t untold_ = 0;
 };
 
 }  // namespace metamorph::evolve

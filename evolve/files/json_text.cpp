@@ -1,14 +1,9 @@
 #include "evolve/files/json_text.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 #include <set>
-#include <system_error>
 
 namespace metamorph::evolve::detail {
 namespace {
@@ -58,30 +53,6 @@ class Watch {
 };
 
 }  // namespace
-
-std::string read_text(const std::filesystem::path& file) {
-  const std::string source = file.string();
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error)) refuse(source, "", "a directory", "a file");
-  struct Close {
-    void operator()(std::FILE* stream) const { std::fclose(stream); }
-  };
-  const std::unique_ptr<std::FILE, Close> stream(std::fopen(source.c_str(), "rb"));
-  if (!stream) {
-    const int reason = errno;
-    refuse(source, "", reason == ENOENT ? "no such file" : std::strerror(reason),
-           "a file that can be read");
-  }
-  std::string text;
-  char buffer[1 << 16];
-  for (std::size_t read = 0; (read = std::fread(buffer, 1, sizeof buffer, stream.get())) > 0;) {
-    text.append(buffer, read);
-  }
-  if (std::ferror(stream.get())) {
-    refuse(source, "", std::strerror(errno), "a file that can be read");
-  }
-  return text;
-}
 
 Json parse_object(std::string_view text, const std::string& source) {
   Json object;

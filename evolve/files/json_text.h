@@ -2,7 +2,6 @@
 
 // Reading and writing of JSON, for the .cpp files of this folder.
 
-#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -15,9 +14,6 @@
 namespace metamorph::evolve::detail {
 
 using Json = nlohmann::json;
-
-/// The whole text of a file. Throws InputError if it is missing, a directory or unreadable.
-std::string read_text(const std::filesystem::path& file);
 
 /// Parses text that must hold one JSON object. Throws InputError with the place of the fault:
 /// syntax, an early end, a key given twice, nesting deeper than any of our formats.

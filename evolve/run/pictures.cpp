@@ -41,9 +41,9 @@ void PictureReporter::generation_done(const GenerationReport& report) {
     const Sheet sheet = individual_sheet(report.experiment, report.best.genome,
                                          report.result.individuals[champion].trials, heading);
     for (const char* name : {"best.svg", "best.png"}) {
-      write_sheet(sheet, (directory_ / name).string());
+      write_sheet(sheet, (directory_ / name).string(), Overwrite::yes);
     }
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {
     failure_ = error.what();
   }
 }

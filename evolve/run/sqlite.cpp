@@ -14,7 +14,8 @@ namespace metamorph::evolve {
 Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
   // A missing file would be created by the write mode and look like an empty run.
   if (mode != Mode::create && !std::filesystem::is_regular_file(file)) {
-    throw InputError(fmt::format("{}: no such file: expected the record of a run", file.string()));
+    throw InputError(fmt::format("{}: {}: expected the record of a run", file.string(),
+                                 std::filesystem::exists(file) ? "not a file" : "no such file"));
   }
   const int flags =
       mode == Mode::create ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READWRITE;

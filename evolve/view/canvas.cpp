@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace metamorph::evolve {
 namespace {
@@ -36,12 +36,12 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned int lengt
   return CAIRO_STATUS_SUCCESS;
 }
 
-SurfacePointer create(const std::string& file, std::string& svg, double width, double height) {
+SurfacePointer create(const std::string& file, std::string& bytes, double width, double height) {
   cairo_surface_t* surface = nullptr;
   if (file.ends_with(".svg")) {
-    surface = cairo_svg_surface_create_for_stream(append, &svg, width, height);
+    surface = cairo_svg_surface_create_for_stream(append, &bytes, width, height);
   } else if (file.ends_with(".pdf")) {
-    surface = cairo_pdf_surface_create(file.c_str(), width, height);
+    surface = cairo_pdf_surface_create_for_stream(append, &bytes, width, height);
   } else if (file.ends_with(".png")) {
     surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24,
                                          static_cast<int>(std::lround(width * png_density)),
@@ -57,37 +57,31 @@ SurfacePointer create(const std::string& file, std::string& svg, double width, d
 
 struct Canvas::Surface {
   std::string file;
-  std::string svg;  // complete after cairo_surface_finish()
+  std::string bytes;  // complete after cairo_surface_finish()
   SurfacePointer surface;
   ContextPointer context;
 
   Surface(const std::string& name, double width, double height)
       : file(name),
-        surface(create(name, svg, width, height)),
+        surface(create(name, bytes, width, height)),
         context(cairo_create(surface.get()), cairo_destroy) {
     check(cairo_surface_status(surface.get()));
   }
 
   void check(cairo_status_t status) const {
-    if (status != CAIRO_STATUS_SUCCESS) fail(cairo_status_to_string(status));
-  }
-
-  [[noreturn]] void fail(const std::string& why) const {
-    throw std::runtime_error(file + ": cannot be written: " + why);
+    if (status != CAIRO_STATUS_SUCCESS) {
+      throw std::runtime_error(file + ": cannot be drawn: " + cairo_status_to_string(status));
+    }
   }
 
   // Cairo numbers the one group of a picture by all surfaces the process ever made; without the
   // number the same picture has the same bytes.
-  void write_svg() {
+  void name_group() {
     const std::string id = "id=\"surface";
-    const std::size_t start = svg.find(id), end = svg.find('"', start + id.size());
+    const std::size_t start = bytes.find(id), end = bytes.find('"', start + id.size());
     if (start != std::string::npos && end != std::string::npos) {
-      svg.replace(start, end - start, "id=\"picture");
+      bytes.replace(start, end - start, "id=\"picture");
     }
-    std::ofstream stream(file, std::ios::binary);
-    stream << svg;
-    stream.close();
-    if (!stream) fail("the folder is missing, write-protected or full");
   }
 
   cairo_t* cairo() const { return context.get(); }
@@ -175,14 +169,16 @@ void Canvas::text(Point at, const std::string& words, double size, const Colour&
   cairo_show_text(cairo, words.c_str());
 }
 
-void Canvas::finish() {
+std::string Canvas::finish() {
   surface_->check(cairo_status(surface_->cairo()));
   if (surface_->file.ends_with(".png")) {
-    surface_->check(cairo_surface_write_to_png(surface_->surface.get(), surface_->file.c_str()));
+    surface_->check(
+        cairo_surface_write_to_png_stream(surface_->surface.get(), append, &surface_->bytes));
   }
   cairo_surface_finish(surface_->surface.get());
   surface_->check(cairo_surface_status(surface_->surface.get()));
-  if (surface_->file.ends_with(".svg")) surface_->write_svg();
+  if (surface_->file.ends_with(".svg")) surface_->name_group();
+  return std::move(surface_->bytes);
 }
 
 double text_width(const std::string& words, double size, bool bold) {

@@ -14,12 +14,13 @@ struct Point {
 
 enum class Align { left, centre, right };
 
-/// A picture file being drawn. Coordinates are layout pixels with y down until look_at() maps a
+/// A picture being drawn. Coordinates are layout pixels with y down until look_at() maps a
 /// part of the picture to lengths in d with y up; line widths and radii follow the same unit.
-/// Which file it becomes is decided by the name: .svg, .png (two pixels per layout pixel) or .pdf.
+/// What it becomes is decided by the name of its file: .svg, .png (two pixels per layout pixel) or
+/// .pdf.
 class Canvas {
  public:
-  /// Throws std::runtime_error for another ending or if the file cannot be written.
+  /// Throws std::runtime_error for another ending or if it is too large to be drawn.
   Canvas(const std::string& file, double width, double height);
   ~Canvas();
   Canvas(const Canvas&) = delete;
@@ -41,8 +42,9 @@ class Canvas {
   void text(Point at, const std::string& words, double size, const Colour& colour,
             Align align = Align::left, bool bold = false);
 
-  /// Completes the file. Throws std::runtime_error if it could not be written.
-  void finish();
+  /// Completes the picture: the bytes of its file. Throws std::runtime_error if something could not
+  /// be drawn.
+  std::string finish();
 
  private:
   struct Surface;

@@ -182,7 +182,7 @@ void draw_panel(Canvas& canvas, const Panel& panel, Point centre, const Layout& 
 
 }  // namespace
 
-void write_sheet(const Sheet& sheet, const std::string& file) {
+void write_sheet(const Sheet& sheet, const std::string& file, Overwrite overwrite) {
   const Layout layout = lay_out(sheet);
   Canvas canvas(file, layout.width, layout.height);
   draw_head(canvas, sheet);
@@ -214,7 +214,7 @@ void write_sheet(const Sheet& sheet, const std::string& file) {
   const double foot = layout.height - margin;
   draw_legend(canvas, sheet, {margin, foot});
   draw_scale_bar(canvas, {layout.width - margin, foot}, layout.scale);
-  canvas.finish();
+  write_file(file, canvas.finish(), overwrite);
 }
 
 }  // namespace metamorph::evolve

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "evolve/files/output_file.h"
 #include "evolve/view/panel.h"
 
 namespace metamorph::evolve {
@@ -25,7 +26,8 @@ struct Sheet {
 };
 
 /// Writes the sheet as .svg, .png or .pdf, by the ending of `file`. The same sheet gives the same
-/// bytes of SVG. Throws std::runtime_error if the file cannot be written.
-void write_sheet(const Sheet& sheet, const std::string& file);
+/// bytes of SVG. The file appears whole or not at all (output_file.h). Throws std::runtime_error if
+/// it cannot be drawn, InputError if it cannot be written.
+void write_sheet(const Sheet& sheet, const std::string& file, Overwrite overwrite);
 
 }  // namespace metamorph::evolve

@@ -283,16 +283,5 @@ TEST(BodyFile, WritesWholeFilesAndOverwritesOnlyWhenTold) {
       ElementsAre(directory.path().string() + ": a directory: expected the name of a file"));
 }
 
-TEST(OutputFile, WithoutCommitLeavesNothing) {
-  const tests::TemporaryDirectory directory;
-  {
-    OutputFile output(directory.path() / "a", Overwrite::no);
-    output.write("half");
-    EXPECT_EQ(directory.names().size(), 1u);
-    EXPECT_NE(directory.names()[0], "a");
-  }
-  EXPECT_TRUE(directory.names().empty());
-}
-
 }  // namespace
 }  // namespace metamorph::evolve

@@ -34,19 +34,21 @@ inline std::string text_of(const std::filesystem::path& file) {
   return text.str();
 }
 
-/// Runs `metamorph ARGUMENTS` in `directory`, after `first`; both are shell text.
+/// Runs `metamorph ARGUMENTS` in `directory`; the arguments are shell text, and so are redirections
+/// (of what would be kept otherwise) and commands before it.
 inline ProgramResult run_program(const std::filesystem::path& directory,
-                                 const std::string& arguments, const std::string& first = "true") {
+                                 const std::string& arguments, const std::string& redirections = "",
+                                 const std::string& before = "true") {
   const TemporaryDirectory scratch;
   const auto out = scratch.path() / "out", err = scratch.path() / "err";
   // Under the leak sanitizer: fontconfig keeps what it knows about fonts to the end.
   const auto suppressions = scratch.path() / "suppressions";
   std::ofstream(suppressions) << "leak:libfontconfig\n";
   const std::string command =
-      "cd '" + directory.string() + "' && " + first +
+      "cd '" + directory.string() + "' && " + before +
       " && LSAN_OPTIONS='print_suppressions=0:suppressions=" + suppressions.string() +
       "' '" METAMORPH_PROGRAM "' " + arguments + " >'" + out.string() + "' 2>'" + err.string() +
-      "'";
+      "' " + redirections;
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
 }

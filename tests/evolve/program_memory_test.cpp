@@ -55,7 +55,7 @@ class InLittleMemory : public testing::TestWithParam<int> {
     int told = 0;
     for (int megabytes = 12; megabytes < 4000; megabytes += 1 + megabytes / 16) {
       const ProgramResult ended = tests::run_program(
-          directory_.path(), arguments, "ulimit -v " + std::to_string(megabytes << 10));
+          directory_.path(), arguments, "", "ulimit -v " + std::to_string(megabytes << 10));
       // 127: the loader of libraries; 1 by libgomp, too: both before and beside what the program
       // can tell.
       EXPECT_THAT(ended.exit_code, AnyOf(0, 1, 2, 127)) << megabytes << " MB: " << ended.err;

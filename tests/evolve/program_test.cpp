@@ -199,7 +199,7 @@ TEST_F(ProgramTest, WrongInputGetsALineAndLeavesNothing) {
   const std::string file = experiment("simple");
   const std::vector<std::pair<std::vector<std::string>, std::string>> table = {
       {{"evolve"}, "expected an experiment file, or --resume DIR"},
-      {{"evolve", path("none.toml")}, "none.toml: cannot be read"},
+      {{"evolve", path("none.toml")}, "none.toml: no such file"},
       {{"evolve", file, "--out", path("x"), "--seed", "-1"}, "--seed: seed = -1: expected a whole"},
       {{"evolve", file, "--out", path("x"), "--population", "many"},
        "--population: neat.population = \"many\": expected a whole"},

@@ -237,7 +237,7 @@ TEST_F(Rules, WhatCannotBeIsRefusedInOneLine) {
        {std::string("grow blob.json"), std::string("simulate disc.json"),
         std::string("render blob.json --out a.svg"), std::string("render disc.json --out a.svg")}) {
     expect_fault(command + " --experiment none.toml",
-                 "none.toml: cannot be read: expected an experiment file (TOML)");
+                 "none.toml: no such file: expected a file that can be read");
     expect_fault(command + " --set development.stepps=3",
                  "--set: development.stepps = 3: unknown key; did you mean development.steps?");
     expect_fault(command + " --set locomotion.method=euler",

@@ -103,20 +103,20 @@ TEST_F(Pictures, SvgIsWellFormed) {
   EXPECT_TRUE(is_well_formed("<a><b x=\"1\"/></a>"));
   EXPECT_FALSE(is_well_formed("<a><b></a></b>"));
   EXPECT_FALSE(is_well_formed("<a>"));
-  write_sheet(sample_sheet(), file("a.svg"));
+  write_sheet(sample_sheet(), file("a.svg"), Overwrite::yes);
   EXPECT_TRUE(is_well_formed(bytes_of(file("a.svg"))));
 }
 
 TEST_F(Pictures, TheSameSheetGivesTheSameBytesOfSvg) {
-  write_sheet(sample_sheet(), file("a.svg"));
-  write_sheet(sample_sheet(), file("b.svg"));
+  write_sheet(sample_sheet(), file("a.svg"), Overwrite::yes);
+  write_sheet(sample_sheet(), file("b.svg"), Overwrite::yes);
   EXPECT_GT(bytes_of(file("a.svg")).size(), 1000u);
   EXPECT_EQ(bytes_of(file("a.svg")), bytes_of(file("b.svg")));
 }
 
 TEST_F(Pictures, PngHasTwoPixelsPerUnitOfTheSvg) {
-  write_sheet(sample_sheet(), file("a.svg"));
-  write_sheet(sample_sheet(), file("a.png"));
+  write_sheet(sample_sheet(), file("a.svg"), Overwrite::yes);
+  write_sheet(sample_sheet(), file("a.png"), Overwrite::yes);
   const std::string svg = bytes_of(file("a.svg")), png = bytes_of(file("a.png"));
   std::smatch size;
   ASSERT_TRUE(
@@ -134,25 +134,25 @@ TEST_F(Pictures, PngHasTwoPixelsPerUnitOfTheSvg) {
 }
 
 TEST_F(Pictures, PdfIsWritten) {
-  write_sheet(sample_sheet(), file("a.pdf"));
+  write_sheet(sample_sheet(), file("a.pdf"), Overwrite::yes);
   EXPECT_EQ(bytes_of(file("a.pdf")).substr(0, 5), "%PDF-");
 }
 
 TEST_F(Pictures, OtherEndingsAndUnwritablePlacesAreRefused) {
   EXPECT_TRUE(is_picture_file("x.svg"));
   EXPECT_FALSE(is_picture_file("x.jpg"));
-  EXPECT_THROW(write_sheet(sample_sheet(), file("a.jpg")), std::runtime_error);
-  EXPECT_THROW(write_sheet(sample_sheet(), file("none/a.svg")), std::runtime_error);
-  EXPECT_THROW(write_sheet(sample_sheet(), file("none/a.png")), std::runtime_error);
+  EXPECT_THROW(write_sheet(sample_sheet(), file("a.jpg"), Overwrite::yes), std::runtime_error);
+  EXPECT_THROW(write_sheet(sample_sheet(), file("none/a.svg"), Overwrite::yes), std::runtime_error);
+  EXPECT_THROW(write_sheet(sample_sheet(), file("none/a.png"), Overwrite::yes), std::runtime_error);
 }
 
 TEST_F(Pictures, StagesWithoutCellsOrBodyAreDrawn) {
   Stage nothing;
   nothing.title = "larva";
   const std::vector<Stage> stages = {nothing, stage_like(tests::hexagon_body(), 0, true)};
-  write_sheet(champion_sheet(stages, starts), file("a.svg"));
-  write_sheet(phase_sheet(stages), file("b.svg"));
-  write_sheet(Sheet{}, file("c.svg"));
+  write_sheet(champion_sheet(stages, starts), file("a.svg"), Overwrite::yes);
+  write_sheet(phase_sheet(stages), file("b.svg"), Overwrite::yes);
+  write_sheet(Sheet{}, file("c.svg"), Overwrite::yes);
   for (const char* name : {"a.svg", "b.svg", "c.svg"}) {
     EXPECT_TRUE(is_well_formed(bytes_of(file(name)))) << name;
   }
