@@ -15,6 +15,7 @@
 #include "evolve/run/memory_check.h"
 #include "evolve/run/pictures.h"
 #include "evolve/run/run.h"
+#include "evolve/run/shared_disk.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -137,6 +138,10 @@ void evolve(const Arguments& given) {
   }
   handle_signals();
   const std::unique_ptr<Record> record = open_record(given);
+  if (const auto disk = shared_disk_of(record->directory())) {
+    tell("note: {} lies on {}, which machines share: the record has a rollback journal\n",
+         record->directory().string(), *disk);
+  }
   Progress progress(isatty(STDERR_FILENO) == 1);
   PictureReporter pictures;
   CheckedLinks checked;

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -18,6 +17,7 @@
 #include "evolve/run/record_schema.h"
 #include "evolve/run/search_tables.h"
 #include "evolve/run/session.h"
+#include "evolve/run/shared_disk.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -62,10 +62,20 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory) {
     throw InputError(fmt::format("{}: cannot be written: {}", file_.string(),
                                  std::error_code(errno, std::generic_category()).message()));
   }
-  if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-    close(descriptor_);
-    throw InputError(
-        fmt::format("{}: another metamorph evolve is writing this run", directory.string()));
+  // A lock of the open file that holds between machines too, where the file system has any.
+  struct flock whole{};
+  whole.l_type = F_WRLCK;
+  whole.l_whence = SEEK_SET;
+  if (fcntl(descriptor_, F_OFD_SETLK, &whole) != 0) {
+    const int reason = errno;
+    ::close(descriptor_);
+    if (reason == EAGAIN || reason == EACCES) {
+      throw InputError(
+          fmt::format("{}: another metamorph evolve is writing this run", directory.string()));
+    }
+    throw InputError(fmt::format("{}: cannot be locked: {}: expected a disk that has locks",
+                                 file_.string(),
+                                 std::error_code(reason, std::generic_category()).message()));
   }
 }
 
@@ -97,11 +107,12 @@ Record::Record(const std::filesystem::path& directory, const Experiment& experim
   }
   start_session(threads);
   transaction.commit();
-  database_->run("PRAGMA journal_mode = WAL");  // readers may look on while the run writes
+  begin_journal();
 }
 
 std::unique_ptr<Record> Record::resume(const std::filesystem::path& directory, int threads) {
-  if (!std::filesystem::is_regular_file(directory / record_file)) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(directory / record_file, error)) {
     throw InputError(fmt::format("{}: holds no {}: expected the directory of a run",
                                  directory.string(), record_file));
   }
@@ -127,7 +138,7 @@ std::unique_ptr<Record> Record::resume(const std::filesystem::path& directory, i
     }
   }
   Integrity(database).check_all();
-  database.run("PRAGMA journal_mode = WAL");
+  record->begin_journal();
   Transaction transaction(database);
   record->start_session(threads);
   transaction.commit();
@@ -139,6 +150,13 @@ Record::~Record() {
     close();
   } catch (const InputError&) {
   }
+}
+
+void Record::begin_journal() {
+  // Readers may look on while the run writes. A write-ahead log needs memory that all who open the
+  // file share, which machines do not.
+  database_->run(shared_disk_of(directory_) ? "PRAGMA journal_mode = DELETE"
+                                            : "PRAGMA journal_mode = WAL");
 }
 
 void Record::close() {
@@ -183,9 +201,9 @@ void Record::start_session(int threads) {
   Statement count(*database_, "SELECT coalesce(max(session), 0) + 1 FROM sessions");
   count.step();
   const std::int64_t session = count.integer(0);
-  for (const auto& [key, value] : session_facts(threads)) {
-    insert.bind(session).bind(key).bind(value).run();
-  }
+  auto facts = session_facts(threads);
+  facts.emplace_back("disk", shared_disk_of(directory_).value_or("local"));
+  for (const auto& [key, value] : facts) insert.bind(session).bind(key).bind(value).run();
   write_digests(*database_, Ledger::session, session, {{"sessions", digest}});
 }
 

@@ -11,7 +11,8 @@
 
 namespace metamorph::evolve {
 
-/// A lock on a directory, held by one process and freed when it ends, however it ends.
+/// A lock on a directory, held by one process and freed when it ends, however it ends. On a disk
+/// that machines share it holds between them.
 class DirectoryLock {
  public:
   explicit DirectoryLock(const std::filesystem::path& directory);  ///< throws InputError if held
@@ -66,6 +67,7 @@ class Record {
   explicit Record(const std::filesystem::path& directory);  // of an existing run
   void start_session(int threads);
   void frame(const Search& search);
+  void begin_journal();
   void check_place();
   /// A statement that writes rows of the generation, which its digest counts.
   Statement insertion(const std::string& table, const std::string& sql);

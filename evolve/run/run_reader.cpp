@@ -15,7 +15,8 @@ namespace metamorph::evolve {
 namespace {
 
 std::filesystem::path record_of(const std::filesystem::path& run) {
-  return std::filesystem::is_directory(run) ? run / record_file : run;
+  std::error_code error;
+  return std::filesystem::is_directory(run, error) ? run / record_file : run;
 }
 
 std::string quoted(const std::string& text) {

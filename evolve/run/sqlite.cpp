@@ -4,7 +4,9 @@
 #include <sqlite3.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <utility>
 
 #include "evolve/files/input_error.h"
 #include "evolve/run/table_digest.h"
@@ -13,34 +15,77 @@ namespace metamorph::evolve {
 
 Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
   // A missing file would be created by the write mode and look like an empty run.
-  if (mode != Mode::create && !std::filesystem::is_regular_file(file)) {
+  std::error_code error;
+  if (mode != Mode::create && !std::filesystem::is_regular_file(file, error)) {
+    const bool exists = std::filesystem::exists(file, error);
     throw InputError(fmt::format("{}: {}: expected the record of a run", file.string(),
-                                 std::filesystem::exists(file) ? "not a file" : "no such file"));
+                                 exists  ? "not a file"
+                                 : error ? error.message()
+                                         : "no such file"));
   }
-  const int flags =
+  const int writing =
       mode == Mode::create ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READWRITE;
   try {
-    open(mode == Mode::read ? SQLITE_OPEN_READONLY : flags);
-    // A journal that a killed writer left behind is played back by the first statement that reads.
-    if (mode == Mode::read && sqlite3_exec(database_, "SELECT 1 FROM sqlite_master", nullptr,
-                                           nullptr, nullptr) == SQLITE_READONLY) {
-      sqlite3_close(database_);
-      open(flags);
+    if (mode != Mode::read) {
+      open(file, writing);
+    } else {
+      // What a killed writer left in a journal is played back by the first statement that reads:
+      // in place, or where the directory cannot be written, in a copy.
+      open(file, SQLITE_OPEN_READONLY);
+      if (needs_to_write()) open(file, writing);
+      if (needs_to_write()) open(copy_aside(), writing);
       run("PRAGMA query_only = ON");
     }
-    run("PRAGMA foreign_keys = ON");
+    run("PRAGMA foreign_keys = ON; PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON");
   } catch (...) {
-    sqlite3_close(database_);
+    close();
     throw;
   }
 }
 
-void Database::open(int flags) {
-  check(sqlite3_open_v2(file_.c_str(), &database_, flags, nullptr));
-  sqlite3_busy_timeout(database_, 10000);
+Database::~Database() { close(); }
+
+void Database::open(const std::filesystem::path& file, int flags) {
+  sqlite3_close(std::exchange(database_, nullptr));
+  check(sqlite3_open_v2(file.c_str(), &database_, flags, nullptr));
+  sqlite3_busy_timeout(database_, 60000);
+  sqlite3_limit(database_, SQLITE_LIMIT_LENGTH, 1 << 29);  // a damaged length asks for no more
 }
 
-Database::~Database() { sqlite3_close(database_); }
+void Database::close() {
+  sqlite3_close(std::exchange(database_, nullptr));
+  std::error_code error;
+  if (!aside_.empty()) std::filesystem::remove_all(aside_, error);
+}
+
+bool Database::needs_to_write() {
+  const int code =
+      sqlite3_exec(database_, "SELECT 1 FROM sqlite_master", nullptr, nullptr, nullptr);
+  return (code & 0xff) == SQLITE_READONLY || (code & 0xff) == SQLITE_CANTOPEN;
+}
+
+std::filesystem::path Database::copy_aside() {
+  std::error_code error;
+  std::string name = (std::filesystem::temp_directory_path(error) / "metamorph-XXXXXX").string();
+  if (error || ::mkdtemp(name.data()) == nullptr) {
+    throw InputError(
+        fmt::format("{}: its writer was killed, and neither its directory nor {} can be "
+                    "written: expected one of them for what has to be undone",
+                    file_.string(), name));
+  }
+  aside_ = name;
+  for (const char* part : {"", "-wal", "-journal"}) {
+    const std::string from = file_.string() + part;
+    if (!std::filesystem::exists(from, error)) continue;
+    std::filesystem::copy_file(from, aside_ / (file_.filename().string() + part), error);
+    if (error) throw InputError(fmt::format("{}: cannot be copied: {}", from, error.message()));
+  }
+  for (const auto& copied : std::filesystem::directory_iterator(aside_)) {
+    std::filesystem::permissions(copied, std::filesystem::perms::owner_write,
+                                 std::filesystem::perm_options::add, error);
+  }
+  return aside_ / file_.filename();
+}
 
 void Database::check(int code) {
   if (code == SQLITE_OK || code == SQLITE_ROW || code == SQLITE_DONE) return;

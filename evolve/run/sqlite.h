@@ -58,7 +58,7 @@ class Statement {
 };
 
 /// An open SQLite file. Where its writer was killed, what it left half done is undone, for which
-/// Mode::read writes too.
+/// Mode::read writes too; where it may not, it reads a copy.
 class Database {
  public:
   enum class Mode { create, write, read };
@@ -78,9 +78,13 @@ class Database {
   const std::filesystem::path& file() const { return file_; }
 
  private:
-  void open(int flags);
+  void open(const std::filesystem::path& file, int flags);
+  void close();
+  bool needs_to_write();
+  std::filesystem::path copy_aside();
 
   std::filesystem::path file_;
+  std::filesystem::path aside_;  ///< a directory with a copy of the file; empty: there is none
   sqlite3* database_ = nullptr;
 };
 

@@ -176,7 +176,9 @@ TEST_F(Audit, WrongInputGetsALine) {
     ASSERT_EQ(told.err_lines().size(), 1u) << told.err;
     EXPECT_THAT(told.err, HasSubstr(line));
   }
-  { const Record made(directory_.path() / "made", tiny_experiment("simple", 1), 1); }
+  {
+    const Record made(directory_.path() / "made", tiny_experiment("simple", 1), 1);
+  }
   EXPECT_THAT(lines_of([&] { audit(RunReader(directory_.path() / "made"), {}); }),
               ElementsAre(HasSubstr("no generation is recorded yet")));
 }
