@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <numeric>
 #include <optional>
 
@@ -108,21 +107,9 @@ std::vector<Outcome> simulate(std::span<const LocomotionTask> tasks,
 Outcome simulate_observed(const LocomotionTask& task, const LocomotionOptions& options, int every,
                           const std::function<void(const Frame&)>& observe) {
   const std::span<const LocomotionTask> tasks(&task, 1);
-  // An exception that left the parallel region would end the program.
-  std::exception_ptr thrown;
-  const std::function<void(const Frame&)> guarded = [&](const Frame& frame) {
-    if (thrown) return;
-    try {
-      observe(frame);
-    } catch (...) {
-      thrown = std::current_exception();
-    }
-  };
-  const Outcome outcome = options.precision == Precision::float32
-                              ? run_all<float>(tasks, options, every, guarded).front()
-                              : run_all<double>(tasks, options, every, guarded).front();
-  if (thrown) std::rethrow_exception(thrown);
-  return outcome;
+  return options.precision == Precision::float32
+             ? run_all<float>(tasks, options, every, observe).front()
+             : run_all<double>(tasks, options, every, observe).front();
 }
 
 }  // namespace metamorph::core
