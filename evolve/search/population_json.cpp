@@ -81,12 +81,12 @@ Json to_json(const Genome& genome) {
 
 Genome genome_of(const Json& json) {
   Genome genome;
-  const auto& nodes = json.at("nodes").get_ref<const Json::array_t&>();
+  const Json& nodes = json.at("nodes");  // a list that ends too early is JSON's exception
   for (std::size_t i = 0; i < nodes.size(); i += 2) {
     genome.nodes.push_back(
         {nodes.at(i).get<int>(), static_cast<NodeKind>(nodes.at(i + 1).get<int>())});
   }
-  const auto& links = json.at("links").get_ref<const Json::array_t&>();
+  const Json& links = json.at("links");
   for (std::size_t i = 0; i < links.size(); i += 4) {
     genome.links.push_back({links.at(i).get<int>(), links.at(i + 1).get<int>(),
                             links.at(i + 2).get<int>(), links.at(i + 3).get<double>()});
