@@ -32,8 +32,10 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
       // What a killed writer left in a journal is played back by the first statement that reads:
       // in place, or where the directory cannot be written, in a copy.
       open(file, SQLITE_OPEN_READONLY);
-      if (needs_to_write()) open(file, writing);
-      if (needs_to_write()) open(copy_aside(), writing);
+      if (needs_to_write()) {
+        open(file, writing);
+        if (needs_to_write()) open(copy_aside(), writing);
+      }
       run("PRAGMA query_only = ON");
     }
     run("PRAGMA foreign_keys = ON; PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON");

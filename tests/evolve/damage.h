@@ -4,7 +4,6 @@
 
 #include <fmt/ranges.h>
 
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -15,11 +14,6 @@
 #include "tests/evolve/runs.h"
 
 namespace metamorph::tests {
-
-inline std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// What a way of reading says: of a whole record the truth, of a damaged one the same or "refused".
 /// Whatever else is thrown gets out, and fails the test.

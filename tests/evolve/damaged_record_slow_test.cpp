@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <random>
 
 #include "tests/evolve/damage.h"
@@ -14,7 +15,7 @@ TEST(ThousandFlippedBits, AreToldOrChangeNothing) {
   const TemporaryDirectory directory;
   const std::filesystem::path path = directory.path() / "run", copy = directory.path() / "copy";
   tests::run_whole(path, tests::tiny_experiment("novelty", 3));
-  const std::string whole = tests::bytes_of(path / "run.db");
+  const std::string whole = tests::text_of(path / "run.db");
   const auto put = [&](const std::string& bytes) {
     std::filesystem::remove_all(copy);
     std::filesystem::create_directory(copy);

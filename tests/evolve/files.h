@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,13 @@ std::vector<std::string> lines_of(Action action) {
     return error.lines();
   }
   return {};
+}
+
+/// All bytes of a file; none if it cannot be read.
+inline std::string text_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
 }
 
 /// A directory of its own that goes away with the test.

@@ -5,6 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <limits>
 #include <set>
 
@@ -183,7 +184,7 @@ TEST_F(DamagedRecord, MoreGenerationsAreNoDamage) {
 
 // Every flipped bit that changes what is said must be told; of bytes that hold nothing it need not.
 TEST_F(DamagedRecord, NoFlippedBitIsSilent) {
-  const std::string whole = tests::bytes_of(path() / "run.db");
+  const std::string whole = tests::text_of(path() / "run.db");
   const std::vector<std::string> truth = tests::readings_of(path());
   const std::filesystem::path damaged = copy();
   for (std::size_t n = 0; n < 60; ++n) {

@@ -12,7 +12,6 @@
 #include <barrier>
 #include <cerrno>
 #include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "tests/evolve/child.h"
@@ -30,14 +29,9 @@ using ::testing::StartsWith;
 using tests::in_child;
 using tests::lines_of;
 using tests::refuse_calls;
+using tests::text_of;
 
 constexpr unsigned nameless = O_TMPFILE & ~O_DIRECTORY;
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 mode_t rights_of(const std::filesystem::path& file) {
   struct stat info{};

@@ -28,12 +28,6 @@ struct ProgramResult {
   }
 };
 
-inline std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 /// Runs `metamorph ARGUMENTS` in `directory`; the arguments are shell text, and so are redirections
 /// (of what would be kept otherwise) and commands before it.
 inline ProgramResult run_program(const std::filesystem::path& directory,

@@ -1,18 +1,15 @@
 // The program in less address space than it would like: whatever it cannot have, it ends in good
 // order and says so.
 
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <fstream>
 #include <thread>
 
 #include "evolve/files/genome_file.h"
+#include "tests/evolve/background_program.h"
 #include "tests/evolve/plain_genomes.h"
 #include "tests/evolve/program.h"
 #include "tests/evolve/runs.h"
@@ -23,6 +20,8 @@ namespace {
 using testing::AnyOf;
 using testing::HasSubstr;
 using tests::contents;
+using tests::Ended;
+using tests::Program;
 using tests::ProgramResult;
 using tests::TemporaryDirectory;
 
@@ -31,11 +30,6 @@ std::string last_line(const ProgramResult& ended) {
   const std::vector<std::string> lines = ended.err_lines();
   return lines.empty() ? "" : lines.back();
 }
-
-struct Ended {
-  int status = 0;  ///< as waitpid() has it
-  std::string output;
-};
 
 class InLittleMemory : public testing::TestWithParam<int> {
  protected:
@@ -90,31 +84,20 @@ TEST_P(InLittleMemory, ARunThatWouldNotFitIsNotBegun) {
 /// beyond what it has.
 Ended run_limited(const std::filesystem::path& directory, const std::string& threads,
                   std::size_t more) {
-  const auto err = directory / "err", part = directory / "part" / "run.db-wal";
-  const pid_t child = fork();
-  if (child == 0) {
-    const int file = open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    dup2(file, STDOUT_FILENO);
-    dup2(file, STDERR_FILENO);
-    if (chdir(directory.c_str()) != 0) _exit(126);
-    execl(METAMORPH_PROGRAM, "metamorph", "evolve", "tiny.toml", "--out", "part", "--threads",
-          threads.c_str(), nullptr);
-    _exit(127);
-  }
+  const auto part = directory / "part";
+  Program program(
+      {"evolve", (directory / "tiny.toml").string(), "--out", part.string(), "--threads", threads});
   std::error_code none;
   for (int tries = 0; tries < 10000; ++tries) {
-    if (std::filesystem::file_size(part, none) > 10000 && !none) break;
+    if (std::filesystem::file_size(part / "run.db-wal", none) > 10000 && !none) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   std::size_t pages = 0;
-  std::ifstream("/proc/" + std::to_string(child) + "/statm") >> pages;
+  std::ifstream("/proc/" + std::to_string(program.process()) + "/statm") >> pages;
   const rlim_t size = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + more;
   const rlimit limit{size, size};
-  prlimit(child, RLIMIT_AS, &limit, nullptr);
-  Ended ended;
-  waitpid(child, &ended.status, 0);
-  ended.output = tests::text_of(err);
-  return ended;
+  prlimit(program.process(), RLIMIT_AS, &limit, nullptr);
+  return program.wait();
 }
 
 TEST_P(InLittleMemory, ARunThatRunsOutCanBeGoneOnWith) {
@@ -124,8 +107,8 @@ TEST_P(InLittleMemory, ARunThatRunsOutCanBeGoneOnWith) {
   int stopped = 0;
   for (std::size_t more = 0; more <= 4 << 20; more += more / 2 + (64 << 10)) {
     const Ended ended = run_limited(directory_.path(), std::to_string(GetParam()), more);
-    ASSERT_TRUE(WIFEXITED(ended.status)) << more << ": " << ended.output;
-    if (WEXITSTATUS(ended.status) != 0) {
+    ASSERT_NE(ended.exit_code, -1) << more << ": " << ended.output;
+    if (ended.exit_code != 0) {
       ++stopped;
       EXPECT_THAT(ended.output, AnyOf(HasSubstr("out of memory"), HasSubstr("libgomp: "))) << more;
     }

@@ -1,12 +1,8 @@
 // The built program as a person meets it: killed, interrupted, without room, with wrong input.
 
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <fstream>
@@ -16,6 +12,7 @@
 
 #include "evolve/files/genome_file.h"
 #include "evolve/run/run_reader.h"
+#include "tests/evolve/background_program.h"
 #include "tests/evolve/files.h"
 #include "tests/evolve/runs.h"
 
@@ -24,57 +21,10 @@ namespace {
 
 using testing::HasSubstr;
 using tests::contents;
+using tests::Ended;
+using tests::Program;
 using tests::TemporaryDirectory;
 using tests::tiny_experiment;
-
-struct Ended {
-  int exit_code = -1;  ///< -1: ended by a signal
-  std::string output;  ///< stdout and stderr
-};
-
-/// The program, running in the background.
-class Program {
- public:
-  /// `file_limit` bytes, if not 0, is the largest file it may write.
-  Program(const std::vector<std::string>& arguments, const TemporaryDirectory& directory,
-          rlim_t file_limit = 0)
-      : output_(directory.path() / "output") {
-    std::vector<std::string> words = {METAMORPH_PROGRAM};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    child_ = fork();
-    if (child_ == 0) {
-      const int file = open(output_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-      dup2(file, STDOUT_FILENO);
-      dup2(file, STDERR_FILENO);
-      if (file_limit != 0) {
-        const rlimit limit{file_limit, file_limit};
-        setrlimit(RLIMIT_FSIZE, &limit);
-      }
-      execv(argv[0], argv.data());
-      _exit(127);
-    }
-  }
-
-  void signal(int number) const { kill(child_, number); }
-
-  Ended wait() {
-    int status = 0;
-    waitpid(child_, &status, 0);
-    Ended ended;
-    if (WIFEXITED(status)) ended.exit_code = WEXITSTATUS(status);
-    std::ostringstream text;
-    text << std::ifstream(output_).rdbuf();
-    ended.output = text.str();
-    return ended;
-  }
-
- private:
-  std::filesystem::path output_;
-  pid_t child_ = -1;
-};
 
 class ProgramTest : public testing::Test {
  protected:
@@ -90,7 +40,7 @@ class ProgramTest : public testing::Test {
     return path(kind == "simple" ? "simple.toml" : "novelty.toml");
   }
   Ended run(const std::vector<std::string>& arguments, rlim_t file_limit = 0) const {
-    return Program(arguments, directory_, file_limit).wait();
+    return Program(arguments, file_limit).wait();
   }
   /// Waits until a run has recorded so many generations.
   void await(const std::string& name, int generations) const {
@@ -118,7 +68,7 @@ TEST_F(ProgramTest, KilledAtAnyMomentAndResumedIsTheSame) {
     const std::string out = path(fmt::format("killed-{}", round));
     std::vector<std::string> arguments = {"evolve", file, "--out", out, "--threads", "1"};
     for (int kills = 0; kills < 4; ++kills) {
-      Program program(arguments, directory_);
+      Program program(arguments);
       const double share = std::uniform_real_distribution<>(0, 0.5)(random);
       std::this_thread::sleep_for(share * length);
       program.signal(SIGKILL);
@@ -142,8 +92,7 @@ TEST_F(ProgramTest, KilledAtAnyMomentAndResumedIsTheSame) {
 
 TEST_F(ProgramTest, FirstInterruptFinishesTheGenerationAndSaysHowToGoOn) {
   const std::string file = experiment("simple");
-  Program program({"evolve", file, "--out", path("a"), "--generations", "5000", "--threads", "1"},
-                  directory_);
+  Program program({"evolve", file, "--out", path("a"), "--generations", "5000", "--threads", "1"});
   await("a", 1);
   program.signal(SIGINT);
   const Ended ended = program.wait();
@@ -166,8 +115,7 @@ TEST_F(ProgramTest, SecondInterruptStopsAtOnceAndLosesNothing) {
     const std::string name = fmt::format("a{}", tries);
     // The first generation would take minutes.
     Program program({"evolve", experiment("simple"), "--out", path(name), "--threads", "1", "--set",
-                     "scenes.*.run_steps=1000000"},
-                    directory_);
+                     "scenes.*.run_steps=1000000"});
     await(name, 0);
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     program.signal(SIGINT);

@@ -351,11 +351,7 @@ TEST(Record, EveryTruncatedFileGetsOneLine) {
   const TemporaryDirectory directory;
   const auto path = directory.path() / "a";
   run_whole(path, tiny_experiment("simple", 2));
-  std::string whole;
-  {
-    std::ifstream stream(path / "run.db", std::ios::binary);
-    whole.assign(std::istreambuf_iterator<char>(stream), {});
-  }
+  const std::string whole = tests::text_of(path / "run.db");
   ASSERT_GT(whole.size(), 20u * 4096u);
   for (std::size_t length = 0; length < whole.size(); length += 4096 + 512) {
     std::ofstream(path / "run.db", std::ios::binary) << whole.substr(0, length);

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <linux/magic.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/evolve/child.h"
 #include "tests/evolve/damage.h"
 
 namespace metamorph::evolve {
@@ -31,22 +31,14 @@ TEST(SharedDisk, KindsAreKnownByTheirNumbers) {
   EXPECT_EQ(shared_disk_of("/none"), std::nullopt);
 }
 
-/// Calls `action` in a process that may write nothing that belongs to us; true if it said true.
+/// What a process that may write nothing of ours says of `action`; "same" if it said true.
 template <class Action>
-bool as_nobody(Action action) {
-  const pid_t child = fork();
-  if (child == 0) {
-    if (geteuid() == 0 && setuid(65534) != 0) _exit(2);
-    try {
-      _exit(action() ? 0 : 1);
-    } catch (const std::exception& error) {
-      std::fprintf(stderr, "%s\n", error.what());
-      _exit(3);
-    }
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+std::string as_nobody(Action action) {
+  return tests::in_child([&]() -> std::string {
+           if (geteuid() == 0 && setuid(65534) != 0) return "cannot become nobody";
+           return action() ? "same" : "other";
+         })
+      .text;
 }
 
 // A copy made while the run is written is what a killed run leaves.
@@ -85,11 +77,13 @@ TEST(KilledRun, CanBeReadWhereNothingCanBeWritten) {
       std::filesystem::permissions(file, static_cast<perms>(0444));
     }
     std::filesystem::permissions(killed, static_cast<perms>(0555));
-    EXPECT_TRUE(as_nobody([&] {
-      const std::vector<std::string> found = tests::readings_of(killed);
-      if (found != truth) RunReader(killed).verify();  // tells why
-      return found == truth;
-    })) << journal;
+    EXPECT_EQ(as_nobody([&] {
+                const std::vector<std::string> found = tests::readings_of(killed);
+                if (found != truth) RunReader(killed).verify();  // tells why
+                return found == truth;
+              }),
+              "same")
+        << journal;
     std::filesystem::permissions(killed, perms::owner_all);
   }
 }

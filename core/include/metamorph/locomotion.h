@@ -17,7 +17,7 @@ std::vector<Outcome> simulate(std::span<const LocomotionTask> tasks,
 
 /// Like simulate() for one task, calling `observe` at the start of actuation and then after every
 /// `every` integrator steps. Observing changes no bit of the result. What `observe` throws ends the
-/// observing, and is thrown when the run is over.
+/// run and reaches the caller.
 Outcome simulate_observed(const LocomotionTask& task, const LocomotionOptions& options, int every,
                           const std::function<void(const Frame&)>& observe);
 
