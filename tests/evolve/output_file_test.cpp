@@ -16,6 +16,7 @@
 
 #include "tests/evolve/child.h"
 #include "tests/evolve/files.h"
+#include "tests/evolve/sanitized.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -181,6 +182,7 @@ TEST_F(OutputFileTest, EveryFaultIsOneLineAndLeavesNothing) {
   };
   write_file(path("old"), "old", Overwrite::no);
   for (const Case& c : cases) {
+    if (tests::is_sanitized && c.call == SYS_write) continue;  // which probes memory by writing it
     const bool replaces = std::string_view(c.name) != "renameat2";
     const std::string name = replaces ? "old" : "new";
     const auto result = in_child([&]() -> std::string {

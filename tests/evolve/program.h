@@ -40,9 +40,11 @@ inline ProgramResult run_program(const std::filesystem::path& directory,
   std::ofstream(suppressions) << "leak:libfontconfig\n";
   const std::string command =
       "cd '" + directory.string() + "' && " + before +
-      " && LSAN_OPTIONS='print_suppressions=0:suppressions=" + suppressions.string() +
-      "' '" METAMORPH_PROGRAM "' " + arguments + " >'" + out.string() + "' 2>'" + err.string() +
-      "' " + redirections;
+      // It knows the library by its file, and would complain where nothing else names its calls.
+      " && ASAN_OPTIONS=external_symbolizer_path= "
+      "LSAN_OPTIONS='print_suppressions=0:suppressions=" +
+      suppressions.string() + "' '" METAMORPH_PROGRAM "' " + arguments + " >'" + out.string() +
+      "' 2>'" + err.string() + "' " + redirections;
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
 }
