@@ -20,6 +20,17 @@ namespace {
 /// longer could overflow the stack. An experiment needs a twentieth.
 constexpr std::size_t longest_text = std::size_t{128} << 10;
 
+constexpr std::size_t most_faults = 100;    ///< told of one file; nobody reads more
+constexpr std::size_t longest_shown = 120;  ///< bytes of a name or a value
+constexpr std::size_t longest_expected =
+    600;  ///< of what was expected: some lists grow with trials
+
+/// The text, or its beginning if it is long.
+std::string shortened(std::string_view text, std::size_t longest = longest_shown) {
+  if (text.size() <= longest) return std::string(text);
+  return std::string(text.substr(0, longest)).append("...");
+}
+
 std::string join_path(std::string_view section, std::string_view key) {
   return section.empty() ? std::string(key) : fmt::format("{}.{}", section, key);
 }
@@ -40,11 +51,11 @@ class Reader {
       file = toml::parse(text, source_);
     } catch (const toml::parse_error& error) {
       throw InputError(fmt::format("{}:{}: not valid TOML: {}", source_, error.source().begin.line,
-                                   error.description()));
+                                   shortened(error.description())));
     }
     if (!file.contains("name")) {
-      faults_.push_back(fmt::format("{}: name is missing: expected {}", source_,
-                                    expectation(fixed_sections(experiment_)[0].keys[0])));
+      add_fault(fmt::format("{}: name is missing: expected {}", source_,
+                            expectation(fixed_sections(experiment_)[0].keys[0])));
     }
     read_preset(file);
     read_fixed_sections(file);
@@ -55,13 +66,27 @@ class Reader {
     for (const Contradiction& c : contradictions(experiment_)) {
       const bool of_trials = c.key == "trials" || c.key.starts_with("scenes.");
       if (of_trials && !trials_known_) continue;  // told already
-      faults_.push_back(fmt::format("{}: expected {}", placed(c.key), c.expected));
+      if (skip_fault()) continue;
+      add_fault(
+          fmt::format("{}: expected {}", placed(c.key), shortened(c.expected, longest_expected)));
     }
+    if (untold_ > 0) faults_.push_back(fmt::format("{}: and {} more", source_, untold_));
     if (!faults_.empty()) throw InputError(faults_);
     return std::move(experiment_);
   }
 
  private:
+  /// Counts a fault and returns true if so many are told already that it is not. What tells of a
+  /// fault may take long: it looks through all keys.
+  bool skip_fault() {
+    if (faults_.size() < most_faults) return false;
+    ++untold_;
+    return true;
+  }
+  void add_fault(std::string line) {
+    if (!skip_fault()) faults_.push_back(std::move(line));
+  }
+
   std::string at(const toml::node& node) const {
     return fmt::format("{}:{}", source_, node.source().begin.line);
   }
@@ -75,15 +100,18 @@ class Reader {
         if (join_path(section.path, k.name) == key) value = " = " + value_text(k);
       }
     }
-    return fmt::format("{}: {}{}", given == origin_.end() ? source_ : given->second, key, value);
+    return fmt::format("{}: {}{}", given == origin_.end() ? source_ : given->second, shortened(key),
+                       shortened(value));
   }
 
-  void unknown(const std::string& where, const std::string& path, const std::string& value,
+  void unknown(const std::string& where, const std::string& full_path, const std::string& value,
                const Section* own = nullptr) {
+    if (skip_fault()) return;
+    const std::string path = shortened(full_path);
     // The right key in the wrong table, and keys that were.
     const auto last = [](const std::string& p) { return p.substr(p.rfind('.') + 1); };
     if (last(path) == "ground_stiffness" || last(path) == "ground_damping") {
-      faults_.push_back(
+      add_fault(
           fmt::format("{}: {} = {}: the ground is solid since version 0.2: expected no such key",
                       where, path, value));
       return;
@@ -99,8 +127,8 @@ class Reader {
     for (const std::string& candidate : paths) {
       if (nearest.empty() && last(candidate) == last(path)) nearest = candidate;
     }
-    faults_.push_back(fmt::format("{}: {} = {}: unknown key{}", where, path, value,
-                                  nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+    add_fault(fmt::format("{}: {} = {}: unknown key{}", where, path, value,
+                          nearest.empty() ? "" : "; did you mean " + nearest + "?"));
   }
 
   void set(const Section& section, std::string_view name, const toml::node& node,
@@ -111,8 +139,8 @@ class Reader {
     if (key == section.keys.end()) {
       unknown(where, path, shown(node), &section);
     } else if (std::string fault; !assign(*key, node, fault)) {
-      faults_.push_back(fmt::format("{}: {} = {}: {}expected {}", where, path, shown(node),
-                                    fault.empty() ? "" : fault + ": ", expectation(*key)));
+      add_fault(fmt::format("{}: {} = {}: {}expected {}", where, shortened(path), shown(node),
+                            fault.empty() ? "" : fault + ": ", expectation(*key)));
     } else {
       origin_[path] = where;
     }
@@ -146,8 +174,8 @@ class Reader {
       } else if (const toml::table* table = node.as_table()) {
         set_all(*section, *table);
       } else {
-        faults_.push_back(fmt::format("{}: {} = {}: expected a table [{}]", at(node), name.str(),
-                                      shown(node), name.str()));
+        add_fault(fmt::format("{}: {} = {}: expected a table [{}]", at(node), name.str(),
+                              shown(node), name.str()));
       }
     }
   }
@@ -158,8 +186,8 @@ class Reader {
     const toml::array* list = node->as_array();
     if (list == nullptr || !std::all_of(list->begin(), list->end(),
                                         [](const toml::node& entry) { return entry.is_table(); })) {
-      faults_.push_back(fmt::format("{}: trials = {}: expected a list of tables [[trials]]",
-                                    at(*node), shown(*node)));
+      add_fault(fmt::format("{}: trials = {}: expected a list of tables [[trials]]", at(*node),
+                            shown(*node)));
       trials_known_ = false;
       return;
     }
@@ -170,8 +198,8 @@ class Reader {
       trial.name = table["name"].value_or(fmt::format("{}", experiment_.trials.size()));
       for (const char* needed : {"name", "stage", "scene"}) {
         if (!table.contains(needed)) {
-          faults_.push_back(
-              fmt::format("{}: trials.{}: {} is missing", at(entry), trial.name, needed));
+          add_fault(fmt::format("{}: trials.{}: {} is missing", at(entry), shortened(trial.name),
+                                needed));
         }
       }
       set_all(trial_section(trial), table);
@@ -183,7 +211,7 @@ class Reader {
     const toml::node* node = file.get("scenes");
     const toml::table* tables = node == nullptr ? nullptr : node->as_table();
     if (node != nullptr && tables == nullptr) {
-      faults_.push_back(
+      add_fault(
           fmt::format("{}: scenes = {}: expected tables [scenes.NAME]", at(*node), shown(*node)));
     }
     if (tables != nullptr) {
@@ -198,7 +226,8 @@ class Reader {
       }
       if (std::find(std::begin(scene_bases), std::end(scene_bases), trial.scene) ==
           std::end(scene_bases)) {
-        faults_.push_back(fmt::format(
+        if (skip_fault()) continue;
+        add_fault(fmt::format(
             "{}: expected water, land, land-right, slope or the name of a [scenes.NAME] table",
             placed("trials." + trial.name + ".scene")));
         continue;
@@ -212,10 +241,10 @@ class Reader {
   void read_scene(const std::string& name, const toml::node& entry) {
     const toml::table* table = entry.as_table();
     if (table == nullptr || !is_name(name)) {
-      faults_.push_back(
+      add_fault(
           fmt::format("{}: scenes.{} = {}: expected a table with a name of letters, "
                       "digits, '-' and '_'",
-                      at(entry), name, shown(entry)));
+                      at(entry), shortened(name), shown(entry)));
       return;
     }
     const bool preset =
@@ -225,8 +254,8 @@ class Reader {
     if (const toml::node* base = table->get("base")) {
       set(scene_section(named), "base", *base, at(*base));
     } else if (!preset) {
-      faults_.push_back(fmt::format("{}: scenes.{}: base is missing: expected {}", at(entry), name,
-                                    expectation(scene_section(named).keys[0])));
+      add_fault(fmt::format("{}: scenes.{}: base is missing: expected {}", at(entry), name,
+                            expectation(scene_section(named).keys[0])));
     }
     named.scene = base_scene(named.base);
     named.scene.name = name;
@@ -256,10 +285,10 @@ class Reader {
         const bool every = (prefix == "scenes.*" && section.path.starts_with("scenes.")) ||
                            (prefix == "trials.*" && section.path.starts_with("trials."));
         if (section.path != prefix && !every) continue;
-        const std::size_t before = faults_.size();
+        const std::size_t before = faults_.size() + untold_;
         set(section, name, node, change.origin);
         found = true;
-        if (faults_.size() != before) break;  // one fault per override, not one per scene
+        if (faults_.size() + untold_ != before) break;  // one fault per override, not one per scene
       }
       if (!found) unknown(change.origin, change.key, shown(node));
     }
@@ -271,6 +300,7 @@ class Reader {
   std::map<std::string, std::string> origin_;  ///< where each given key was given
   bool trials_known_ = true;                   ///< false: `trials` is not what it should be
   std::vector<std::string> faults_;
+  std::size_t untold_ = 0;  ///< faults beyond those
 };
 
 }  // namespace
@@ -278,7 +308,8 @@ class Reader {
 Override parse_override(std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string_view::npos || equals + 1 == text.size()) {
-    throw InputError(fmt::format("--set {}: expected key=value, as in neat.population=100", text));
+    throw InputError(
+        fmt::format("--set {}: expected key=value, as in neat.population=100", shortened(text)));
   }
   return {"--set", std::string(text.substr(0, equals)), std::string(text.substr(equals + 1))};
 }

@@ -31,8 +31,13 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
   std::string best;
   std::size_t best_edits = 0;
   for (const std::string& candidate : candidates) {
+    const std::size_t most = std::max<std::size_t>(2, candidate.size() / 3);
+    // Each edit makes a name longer or shorter by one letter at most.
+    if (std::max(name.size(), candidate.size()) - std::min(name.size(), candidate.size()) > most) {
+      continue;
+    }
     const std::size_t count = edits(name, candidate);
-    if (count > std::max<std::size_t>(2, candidate.size() / 3)) continue;
+    if (count > most) continue;
     if (best.empty() || count < best_edits) {
       best = candidate;
       best_edits = count;

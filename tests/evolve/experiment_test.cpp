@@ -394,6 +394,17 @@ TEST(Experiment, AllFaultsAreToldAtOnce) {
                           HasSubstr("--set: scenes.mars.friction = 1: unknown key")));
 }
 
+// As many as one reads, each of them short.
+TEST(Experiment, FaultsWithoutEndAreCounted) {
+  const std::string name(5000, 'q');
+  std::string text = name + " = 1\n[[trials]]\nname = \"" + name + "\"\n";
+  for (int i = 0; i < 150; ++i) text += "no" + std::to_string(i) + " = 1\n";
+  const std::vector<std::string> faults = faults_of(text);
+  ASSERT_EQ(faults.size(), 101u);
+  for (const std::string& line : faults) EXPECT_LT(line.size(), 1000u) << line;
+  EXPECT_THAT(faults.back(), testing::MatchesRegex("x.toml: and [0-9]+ more"));
+}
+
 TEST(Experiment, TextThatIsNoTomlIsPlaced) {
   EXPECT_THAT(faults_of("name = \"x\"\ngenerations = = 3\n"),
               ElementsAre(HasSubstr("x.toml:2: not valid TOML")));
