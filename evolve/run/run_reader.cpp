@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "evolve/experiment/experiment_file.h"
 #include "evolve/files/genome_file.h"
@@ -73,7 +74,15 @@ Experiment RunReader::experiment() const {
   if (!select.step()) {
     throw InputError(fmt::format("{}: holds no configuration", file_.string()));
   }
-  return parse_experiment(select.text(0), file_.string() + " (configuration)");
+  Experiment experiment = parse_experiment(select.text(0), file_.string() + " (configuration)");
+  // Champions have an outcome for every row of the table.
+  Statement trials(*database_, "SELECT count(*) FROM trials");
+  trials.step();
+  if (!std::cmp_equal(trials.integer(0), experiment.trials.size())) {
+    throw InputError(fmt::format("{}: table trials: {} rows: expected {}, as in the configuration",
+                                 file_.string(), trials.integer(0), experiment.trials.size()));
+  }
+  return experiment;
 }
 
 int RunReader::generations_done() const { return Reading(*this).generations(); }
