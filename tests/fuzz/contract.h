@@ -4,6 +4,8 @@
 // lines that a terminal can show. Anything else ends the program, which is how a fuzz target says
 // that it found something.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -24,8 +26,7 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
 /// Ends the program unless it is so.
 inline void require(bool so, std::string_view what, std::string_view shown = {}) {
   if (so) return;
-  std::fprintf(stderr, "broken: %.*s: %.*s\n", static_cast<int>(what.size()), what.data(),
-               static_cast<int>(shown.size()), shown.data());
+  fmt::print(stderr, "broken: {}: {}\n", what, shown);
   std::abort();
 }
 
