@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and evolves a small water-to-land run (about a minute on two
+# Installs what is missing, builds, and evolves a small water-to-land run (about a minute and a half on two
 # cores):
 #   bash evolve/run.sh [options of `metamorph evolve`, for instance --seed 7 --generations 100]
 # Every call makes a new run in runs/; nothing there is overwritten.
@@ -27,7 +27,7 @@ done <<END
 --out $out
 --seed $number
 --population 100
---generations 80
+--generations 40
 END
 "$metamorph" evolve evolve/experiments/water-to-land-simple.toml "${defaults[@]}" "$@" || exit
 [ -d "$out" ] || exit 0

@@ -71,12 +71,12 @@ Checkpoint decode(std::span<const std::uint8_t> bytes, const std::string& source
     Checkpoint checkpoint;
     auto& [generation, search, best, chain] = checkpoint;
     auto& [best_generation, individual, eq6, score, distances, genome] = best;
-    json.at("generation").get_to(generation);
-    json.at("chain").get_to(chain);
+    read_integer(json.at("generation"), generation);
+    read_integer(json.at("chain"), chain);
     search = json.at("search").get_binary();
     const nlohmann::json& of_best = json.at("best");
-    of_best.at("generation").get_to(best_generation);
-    of_best.at("individual").get_to(individual);
+    read_integer(of_best.at("generation"), best_generation);
+    read_integer(of_best.at("individual"), individual);
     of_best.at("eq6").get_to(eq6);
     of_best.at("score").get_to(score);
     of_best.at("distances").get_to(distances);

@@ -14,14 +14,20 @@ Json to_json(const Individual& individual) {
   return {id, parent_a, parent_b, species, static_cast<int>(origin)};
 }
 
+int integer_of(const Json& json) {
+  int value = 0;
+  read_integer(json, value);
+  return value;
+}
+
 Individual individual_of(const Json& json) {
   Individual individual;
   auto& [id, parent_a, parent_b, species, origin] = individual;
-  json.at(0).get_to(id);
-  json.at(1).get_to(parent_a);
-  json.at(2).get_to(parent_b);
-  json.at(3).get_to(species);
-  origin = static_cast<Origin>(json.at(4).get<int>());
+  read_integer(json.at(0), id);
+  read_integer(json.at(1), parent_a);
+  read_integer(json.at(2), parent_b);
+  read_integer(json.at(3), species);
+  origin = static_cast<Origin>(integer_of(json.at(4)));
   return individual;
 }
 
@@ -33,12 +39,12 @@ Json to_json(const Species& of) {
 Species species_of(const Json& json) {
   Species result;
   auto& [id, representative, age, best_ever, stagnant, size] = result;
-  json.at(0).get_to(id);
+  read_integer(json.at(0), id);
   representative = genome_of(json.at(1));
-  json.at(2).get_to(age);
+  read_integer(json.at(2), age);
   json.at(3).get_to(best_ever);
-  json.at(4).get_to(stagnant);
-  json.at(5).get_to(size);
+  read_integer(json.at(4), stagnant);
+  read_integer(json.at(5), size);
   return result;
 }
 
@@ -84,16 +90,16 @@ Genome genome_of(const Json& json) {
   const Json& nodes = json.at("nodes");  // a list that ends too early is JSON's exception
   for (std::size_t i = 0; i < nodes.size(); i += 2) {
     genome.nodes.push_back(
-        {nodes.at(i).get<int>(), static_cast<NodeKind>(nodes.at(i + 1).get<int>())});
+        {integer_of(nodes.at(i)), static_cast<NodeKind>(integer_of(nodes.at(i + 1)))});
   }
   const Json& links = json.at("links");
   for (std::size_t i = 0; i < links.size(); i += 4) {
-    genome.links.push_back({links.at(i).get<int>(), links.at(i + 1).get<int>(),
-                            links.at(i + 2).get<int>(), links.at(i + 3).get<double>()});
+    genome.links.push_back({integer_of(links.at(i)), integer_of(links.at(i + 1)),
+                            integer_of(links.at(i + 2)), links.at(i + 3).get<double>()});
   }
   if (const auto stages = json.find("stages"); stages != json.end()) {
     for (std::size_t i = 0; i < genome.links.size(); ++i) {
-      genome.links[i].stages = {stages->at(2 * i).get<int>(), stages->at(2 * i + 1).get<int>()};
+      genome.links[i].stages = {integer_of(stages->at(2 * i)), integer_of(stages->at(2 * i + 1))};
     }
   }
   return genome;
@@ -118,15 +124,15 @@ PopulationState population_of(const Json& json) {
   PopulationState population;
   auto& [seed, generation, genomes, individuals, species, next_individual, next_species,
          next_innovation, next_node, compatibility_threshold] = population;
-  json.at("seed").get_to(seed);
-  json.at("generation").get_to(generation);
+  read_integer(json.at("seed"), seed);
+  read_integer(json.at("generation"), generation);
   read_list(json.at("genomes"), genomes, genome_of);
   read_list(json.at("individuals"), individuals, individual_of);
   read_list(json.at("species"), species, species_of);
-  json.at("next_individual").get_to(next_individual);
-  json.at("next_species").get_to(next_species);
-  json.at("next_innovation").get_to(next_innovation);
-  json.at("next_node").get_to(next_node);
+  read_integer(json.at("next_individual"), next_individual);
+  read_integer(json.at("next_species"), next_species);
+  read_integer(json.at("next_innovation"), next_innovation);
+  read_integer(json.at("next_node"), next_node);
   json.at("compatibility_threshold").get_to(compatibility_threshold);
   return population;
 }
