@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "evolve/app/commands.h"
+#include "evolve/app/life_sources.h"
 #include "evolve/app/options.h"
 #include "evolve/app/rules_options.h"
 #include "evolve/files/animat_file.h"
@@ -162,10 +163,6 @@ Sheet sheet_of_body(const RenderOptions& options) {
   }
   sheet.heading = stem_of(options.source);
   return sheet;
-}
-
-bool is_run(const std::filesystem::path& source) {
-  return std::filesystem::is_directory(source) || source.extension() == ".db";
 }
 
 /// Options that say nothing about such a source; each gets its line.

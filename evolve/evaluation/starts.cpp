@@ -19,7 +19,7 @@ core::Body start_of(const core::Body& body, const Trial& trial, int start, std::
                                 static_cast<std::uint32_t>(start)));
 }
 
-core::Outcome combine_starts(std::span<const core::Outcome> outcomes, StartsCombine rule) {
+std::size_t telling_start(std::span<const core::Outcome> outcomes, StartsCombine rule) {
   assert(!outcomes.empty());
   std::vector<std::size_t> order(outcomes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -29,9 +29,12 @@ core::Outcome combine_starts(std::span<const core::Outcome> outcomes, StartsComb
     };
     return rank(a) < rank(b);
   });
-  if (rule == StartsCombine::least) return outcomes[order.front()];
-  core::Outcome result = outcomes[order[(order.size() - 1) / 2]];
-  if (rule == StartsCombine::median || core::is_failure(result.status)) return result;
+  return order[rule == StartsCombine::least ? 0 : (order.size() - 1) / 2];
+}
+
+core::Outcome combine_starts(std::span<const core::Outcome> outcomes, StartsCombine rule) {
+  core::Outcome result = outcomes[telling_start(outcomes, rule)];
+  if (rule != StartsCombine::mean || core::is_failure(result.status)) return result;
 
   result.distance = 0;
   result.mean_position = {};

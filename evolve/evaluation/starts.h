@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -21,10 +22,15 @@ constexpr bool is_displaced(const Trial& trial, int start) {
 core::Body start_of(const core::Body& body, const Trial& trial, int start, std::uint64_t seed,
                     int generation);
 
+/// Which of a trial's starts tells what they amount to. They are ranked, failures first, then by
+/// distance, of equals the earlier first: with `least` it is the first, else the middle one, of two
+/// middle ones the lower. Precondition: there is a start.
+std::size_t telling_start(std::span<const core::Outcome> outcomes, StartsCombine rule);
+
 /// What the outcomes of a trial's starts, in their order, amount to; of one start its outcome, to
-/// the bit. The starts are ranked, failures first, then by distance, of equals the earlier first:
+/// the bit. Ranked as above it is
 ///   least   the outcome of the first;
-///   median  that of the middle one, of two middle ones the lower;
+///   median  that of the middle one;
 ///   mean    that of the median, but with the mean distance of all starts, where a failed one
 ///           counts 0, and the means of mean_position, height, stance and gait_frequency over those
 ///           that did not fail; if the median failed, its outcome as it is.
