@@ -63,6 +63,10 @@ std::vector<double> speeds_at(const Track& track, int frame) {
   return speeds;
 }
 
+bool touches(const Motion& motion, int frame, std::size_t node) {
+  return motion.scene.ground && motion.track.y[static_cast<std::size_t>(frame)][node] < touching;
+}
+
 std::vector<Colour> node_colours(const Motion& motion, int frame, ColourKind kind,
                                  const Scales& scales) {
   const core::Body& body = motion.body;
@@ -87,8 +91,7 @@ std::vector<Colour> node_colours(const Motion& motion, int frame, ColourKind kin
         colours[i] = pale(birth_colour(motion.born.empty() ? 0 : motion.born[i]));
         break;
       case ColourKind::contact:
-        colours[i] = contact_colour(motion.scene.ground &&
-                                    motion.track.y[static_cast<std::size_t>(frame)][i] < touching);
+        colours[i] = contact_colour(touches(motion, frame, i));
         break;
     }
   }

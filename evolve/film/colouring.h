@@ -30,6 +30,9 @@ Scales scales_of(std::span<const Life* const> lives);
 /// How fast every node moves at a frame of a track, d per time unit.
 std::vector<double> speeds_at(const Track& track, int frame);
 
+/// Whether a node touches the ground at a frame of a motion.
+bool touches(const Motion& motion, int frame, std::size_t node);
+
 /// Colours of a body's cells at a frame of its motion. Not of ColourKind::area, which belongs to
 /// triangles.
 std::vector<Colour> node_colours(const Motion& motion, int frame, ColourKind kind,

@@ -119,6 +119,11 @@ void draw_body(Canvas& canvas, const Actor& actor, std::size_t number, const Poi
   }
   draw_outline(canvas, actor.edges[number], points, colours::ink,
                std::max(0.12 * style.scale, 0.9));
+  if (style.colour != ColourKind::contact) return;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!touches(motion, frame, i)) continue;
+    canvas.fill_circle(points[i], std::max(0.25 * style.scale, 2.0), contact_colour(true));
+  }
 }
 
 /// A line along the ground with hatches, and how far it is from the start, which stand still.
@@ -152,7 +157,7 @@ void draw_ground(Canvas& canvas, const Place& place, const View& view, const Len
 void draw_lattice(Canvas& canvas, const Place& place, const Lens& lens, double alpha) {
   const double wide = place.width / 2 / lens.scale, tall = place.height / 2 / lens.scale;
   const double step = lens.scale * lattice < 25 ? 4 * lattice : lattice;
-  const Colour colour = faded(colours::faint_ink, 0.4 * alpha);
+  const Colour colour = faded(colours::faint_ink, 0.5 * alpha);
   for (double x = step * std::ceil((lens.target.x - wide) / step); x <= lens.target.x + wide;
        x += step) {
     for (double y = step * std::ceil((lens.target.y - tall) / step); y <= lens.target.y + tall;
@@ -204,7 +209,7 @@ void draw_motion(Canvas& canvas, const Place& place, const Actor& actor, const M
   }
   draw_body(canvas, actor, number, points_at(motion.track, frame, view, lens), frame, style);
   if (motion.reference) {
-    ghost(*motion.reference, of_reference, std::max(0.12 * style.scale, 1.0));
+    ghost(*motion.reference, of_reference, std::max(0.06 * style.scale, 1.0));
   }
 }
 
@@ -259,6 +264,41 @@ void draw_embryo(Canvas& canvas, const Place& place, const Actor& actor, int ste
   }
 }
 
+Point sum_of(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
+Point difference_of(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
+
+Point rotated(Point p, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * p.x - s * p.y, s * p.x + c * p.y};
+}
+
+Point mean_of(const Points& points) {
+  Point sum;
+  for (const Point& p : points) sum = sum_of(sum, p);
+  const auto count = static_cast<double>(points.size());
+  return {sum.x / count, sum.y / count};
+}
+
+/// A shape on its way to another place: what fell over turns, for straight ways would squeeze it.
+Points on_the_way(const Points& from, const Points& to, double t) {
+  const Point start = mean_of(from), end = mean_of(to);
+  double along = 0, across = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const Point a = difference_of(from[i], start), b = difference_of(to[i], end);
+    along += a.x * b.x + a.y * b.y;
+    across += a.x * b.y - a.y * b.x;
+  }
+  const double angle = std::atan2(across, along);  // that fits best
+  const Point centre = between(start, end, t);
+  Points points(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const Point shape =
+        between(difference_of(from[i], start), rotated(difference_of(to[i], end), -angle), t);
+    points[i] = sum_of(centre, rotated(shape, t * angle));
+  }
+  return points;
+}
+
 /// The cells shrink to the nodes of the body, which then comes to where it begins to move.
 void draw_cut(Canvas& canvas, const Place& place, const Actor& actor, const Moment& moment,
               const LifeStyle& style) {
@@ -276,11 +316,12 @@ void draw_cut(Canvas& canvas, const Place& place, const Actor& actor, const Mome
   draw_lattice(canvas, place, before, 1 - eased(2 * moment.part));
   draw_surroundings(canvas, place, motion, view, lens, eased(2 * moment.part - 1));
   const double moved = eased((moment.part - 0.35) / 0.65), shrunk = eased(moment.part / 0.6);
-  Points points = points_at(motion.track, 0, view, lens);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto cell = static_cast<std::size_t>(motion.body.cell[i]);
-    points[i] = between(before({embryo.x[cell], embryo.y[cell]}), points[i], moved);
+  Points inside;
+  for (const int cell : motion.body.cell) {
+    const auto c = static_cast<std::size_t>(cell);
+    inside.push_back(before({embryo.x[c], embryo.y[c]}));
   }
+  const Points points = on_the_way(inside, points_at(motion.track, 0, view, lens), moved);
   draw_body(canvas, actor, number, points, 0, style);
   if (shrunk >= 1) return;
   const std::vector<Colour> colours =

@@ -31,7 +31,7 @@ Words encoding_of(const std::string& out) {
   Words words;
   if (out.ends_with(".mp4")) {
     words = {"-c:v", "libx264",   "-preset",    "medium", "-crf",
-             "20",   "-movflags", "+faststart", "-f",     "mp4"};
+             "23",   "-movflags", "+faststart", "-f",     "mp4"};
     words.insert(words.begin(), colours.begin(), colours.end());
   } else if (out.ends_with(".webm")) {
     words = {"-c:v", "libvpx-vp9", "-crf", "32",      "-b:v", "0",  "-deadline",

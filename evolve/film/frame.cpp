@@ -15,11 +15,12 @@ namespace {
 
 constexpr double short_side = 540;  ///< layout pixels
 constexpr double margin = 24;
-constexpr double head = 56, foot = 62, cell_head = 36;
+constexpr double head = 56, foot = 62, cell_head = 56;
 constexpr double heading_size = 17, text_size = 13, least_size = 7;
 constexpr double largest_scale = 46;  ///< layout pixels per d
 constexpr double air = 0.8;           ///< d around what the camera must show
 constexpr double fade = 0.35;         ///< seconds that births and deaths are seen
+constexpr double longest_fade = 100;  ///< development steps, however fast the film is
 
 /// The largest size, up to `size`, at which words fit.
 double fitting_size(const std::string& words, double size, double width, bool bold) {
@@ -60,6 +61,8 @@ std::string caption_of_motion(const Actor& actor, const Moment& moment, bool bri
   return words;
 }
 
+std::string cells_text(int count) { return fmt::format("{} cell{}", count, count == 1 ? "" : "s"); }
+
 std::string caption_of(const Actor& actor, const Moment& moment, bool brief) {
   const Life& life = actor.life;
   if (moment.shot.kind == Shot::Kind::motion) return caption_of_motion(actor, moment, brief);
@@ -71,9 +74,16 @@ std::string caption_of(const Actor& actor, const Moment& moment, bool brief) {
     return fmt::format("{}: {}", motion.name, core::name(status));
   }
   const core::Embryo& embryo = life.embryos[static_cast<std::size_t>(step_at(moment))];
-  if (brief) return fmt::format("step {}: {} cells", embryo.step, embryo.cell_count());
-  return fmt::format("development, step {} of {}: {} cells, {} born, {} died", embryo.step,
-                     life.end, embryo.cell_count(), embryo.created - 1, embryo.died);
+  if (brief) return fmt::format("step {}: {}", embryo.step, cells_text(embryo.cell_count()));
+  return fmt::format("development, step {} of {}: {}, {} born, {} died", embryo.step, life.end,
+                     cells_text(embryo.cell_count()), embryo.created - 1, embryo.died);
+}
+
+/// Name of a run, and which of it; a file has a name only.
+std::pair<std::string, std::string> heading_of(const Life& life) {
+  const std::size_t colon = life.heading.find(": ");
+  if (colon == std::string::npos) return {life.heading, ""};
+  return {life.heading.substr(0, colon), life.heading.substr(colon + 2)};
 }
 
 /// Points where it goes in all of the motion.
@@ -135,13 +145,13 @@ void draw_legend(Canvas& canvas, double right, double base, ColourKind kind, con
       return;
     case ColourKind::period:
       draw_scale(canvas, right, base,
-                 {fmt::format("{:.0f}", scales.shortest_period), "period",
-                  fmt::format("{:.0f} time units", scales.longest_period)},
+                 {fmt::format("{:.0f}", scales.shortest_period), "period, time units",
+                  fmt::format("{:.0f}", scales.longest_period)},
                  sequential_colour);
       return;
     case ColourKind::speed:
       draw_scale(canvas, right, base,
-                 {"0", "speed", fmt::format("{:.2f} d / time unit", scales.highest_speed)},
+                 {"0", "speed, d per time unit", fmt::format("{:.2f}", scales.highest_speed)},
                  sequential_colour);
       return;
     case ColourKind::birth:
@@ -241,7 +251,7 @@ FrameArtist::FrameArtist(std::vector<Actor> actors, const FrameStyle& style)
   }
   life_style_.scales = scales_of(lives);
   life_style_.scale = scale_of(actors_, places_);
-  life_style_.fade_steps = std::max(1.0, fade * style.speed / core::paper_step);
+  life_style_.fade_steps = std::clamp(fade * style.speed / core::paper_step, 1.0, longest_fade);
 }
 
 std::string FrameArtist::draw(double second, Canvas::Frame form) const {
@@ -273,12 +283,13 @@ void FrameArtist::draw_grid(Canvas& canvas, double second) const {
     const Place& place = places_[a];
     const Moment moment = moment_at(actor.shots, second);
     draw_life(canvas, place, actor, moment, life_style_);
-    const double room = place.width - margin;
-    draw_fitting(canvas, {place.left + margin / 2, place.top - 20}, actor.life.heading, text_size,
-                 room, colours::ink, true);
-    draw_fitting(canvas, {place.left + margin / 2, place.top - 6}, caption_of(actor, moment, true),
-                 text_size - 1, room - 26, colours::faint_ink);
-    draw_arrow(canvas, actor, moment, {place.left + place.width - margin / 2 - 10, place.top - 10});
+    const double left = place.left + margin / 2, room = place.width - margin;
+    const auto [name, rest] = heading_of(actor.life);
+    draw_fitting(canvas, {left, place.top - 40}, name, text_size, room, colours::ink, true);
+    draw_fitting(canvas, {left, place.top - 24}, rest, text_size - 1, room, colours::faint_ink);
+    draw_fitting(canvas, {left, place.top - 8}, caption_of(actor, moment, true), text_size - 1,
+                 room - 26, colours::faint_ink);
+    draw_arrow(canvas, actor, moment, {place.left + place.width - margin / 2 - 10, place.top - 12});
   }
 }
 

@@ -97,7 +97,9 @@ TEST_F(FilmByFfmpeg, IsOfTheCodecSizeAndLengthThatItsEndingAndOptionsSay) {
     EXPECT_THAT(told, HasSubstr("width=160\nheight=120\n"));
     EXPECT_THAT(told, HasSubstr("nb_read_frames=40\n"));
     EXPECT_NEAR(duration(told), 2, 0.051) << name;  // one frame
-    if (codec != "gif") EXPECT_THAT(told, HasSubstr("pix_fmt=yuv420p\n"));
+    if (codec != "gif") {
+      EXPECT_THAT(told, HasSubstr("pix_fmt=yuv420p\n"));
+    }
   }
 }
 
@@ -204,7 +206,6 @@ TEST_F(Film, ShowsEveryColourCameraAndKindInItsOwnWay) {
 
 TEST_F(Film, LastsAsLongAsItsSpeedSays) {
   // 200 paper steps of 0.2 at 20 time units a second, 10 frames each.
-  core::Scene scene;
   const auto result =
       film("strip.json --set scenes.water.run_steps=200 --out a/ --size 64x64 --fps 10 --speed 20");
   ASSERT_EQ(result.exit_code, 0) << result.err;
