@@ -13,6 +13,7 @@ namespace metamorph::evolve {
 void add_audit_command(CLI::App& app);
 void add_evolve_command(CLI::App& app);
 void add_export_command(CLI::App& app);
+void add_film_command(CLI::App& app);
 void add_grow_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_render_command(CLI::App& app);

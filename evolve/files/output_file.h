@@ -23,6 +23,9 @@ class OutputFile {
   ~OutputFile();  ///< without commit(): leaves nothing behind
 
   void write(std::string_view text);
+  /// For a program that writes the bytes instead, by this descriptor opened anew
+  /// (/proc/self/fd/N of its own process). It must have ended before commit().
+  int descriptor() const { return descriptor_; }
   void commit();
 
  private:

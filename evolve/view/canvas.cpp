@@ -53,10 +53,16 @@ SurfacePointer create(const std::string& file, std::string& bytes, double width,
   return {surface, cairo_surface_destroy};
 }
 
+SurfacePointer create_frame(int width, int height, double density) {
+  cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+  cairo_surface_set_device_scale(surface, density, density);
+  return {surface, cairo_surface_destroy};
+}
+
 }  // namespace
 
 struct Canvas::Surface {
-  std::string file;
+  std::string file;   // of a frame "frame.png" or "frame"
   std::string bytes;  // complete after cairo_surface_finish()
   SurfacePointer surface;
   ContextPointer context;
@@ -64,6 +70,13 @@ struct Canvas::Surface {
   Surface(const std::string& name, double width, double height)
       : file(name),
         surface(create(name, bytes, width, height)),
+        context(cairo_create(surface.get()), cairo_destroy) {
+    check(cairo_surface_status(surface.get()));
+  }
+
+  Surface(Frame frame, int width, int height, double density)
+      : file(frame == Frame::png ? "frame.png" : "frame"),
+        surface(create_frame(width, height, density)),
         context(cairo_create(surface.get()), cairo_destroy) {
     check(cairo_surface_status(surface.get()));
   }
@@ -86,6 +99,23 @@ struct Canvas::Surface {
 
   cairo_t* cairo() const { return context.get(); }
 
+  void prepare() const {
+    cairo_set_line_join(cairo(), CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_cap(cairo(), CAIRO_LINE_CAP_ROUND);
+    use(colours::paper);
+    cairo_paint(cairo());
+  }
+
+  void take_pixels() {
+    cairo_surface_flush(surface.get());
+    const auto row = static_cast<std::size_t>(cairo_image_surface_get_width(surface.get())) * 4;
+    const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface.get()));
+    const auto* data = reinterpret_cast<const char*>(cairo_image_surface_get_data(surface.get()));
+    for (int y = 0; y < cairo_image_surface_get_height(surface.get()); ++y) {
+      bytes.append(data + stride * static_cast<std::size_t>(y), row);
+    }
+  }
+
   void use(const Colour& c) const {
     cairo_set_source_rgba(cairo(), c.red, c.green, c.blue, c.alpha);
   }
@@ -98,11 +128,12 @@ struct Canvas::Surface {
 
 Canvas::Canvas(const std::string& file, double width, double height)
     : surface_(std::make_unique<Surface>(file, width, height)) {
-  cairo_t* cairo = surface_->cairo();
-  cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
-  cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
-  surface_->use(colours::paper);
-  cairo_paint(cairo);
+  surface_->prepare();
+}
+
+Canvas::Canvas(Frame frame, int width, int height, double density)
+    : surface_(std::make_unique<Surface>(frame, width, height, density)) {
+  surface_->prepare();
 }
 
 Canvas::~Canvas() = default;
@@ -114,6 +145,15 @@ void Canvas::look_at(Point origin, double scale) {
 }
 
 void Canvas::look_at_layout() { cairo_identity_matrix(surface_->cairo()); }
+
+void Canvas::show_only(Point corner, double width, double height) {
+  show_all();
+  cairo_new_path(surface_->cairo());
+  cairo_rectangle(surface_->cairo(), corner.x, corner.y, width, height);
+  cairo_clip(surface_->cairo());
+}
+
+void Canvas::show_all() { cairo_reset_clip(surface_->cairo()); }
 
 void Canvas::fill_polygon(std::span<const Point> points, const Colour& colour) {
   surface_->use(colour);
@@ -175,6 +215,7 @@ std::string Canvas::finish() {
     surface_->check(
         cairo_surface_write_to_png_stream(surface_->surface.get(), append, &surface_->bytes));
   }
+  if (surface_->file == "frame") surface_->take_pixels();
   cairo_surface_finish(surface_->surface.get());
   surface_->check(cairo_surface_status(surface_->surface.get()));
   if (surface_->file.ends_with(".svg")) surface_->name_group();

@@ -22,6 +22,10 @@ class Canvas {
  public:
   /// Throws std::runtime_error for another ending or if it is too large to be drawn.
   Canvas(const std::string& file, double width, double height);
+  /// A frame of a film: `width` by `height` pixels, `density` of them per layout pixel, that
+  /// finish() gives as PNG or as they are.
+  enum class Frame { png, pixels };
+  Canvas(Frame frame, int width, int height, double density);
   ~Canvas();
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
@@ -30,6 +34,10 @@ class Canvas {
   void look_at(Point origin, double scale);
   /// Back to layout pixels.
   void look_at_layout();
+
+  /// Nothing is drawn outside this part of the layout until show_all().
+  void show_only(Point corner, double width, double height);
+  void show_all();
 
   void fill_polygon(std::span<const Point> points, const Colour& colour);
   /// Fills and strokes in one colour, so that neighbours show no seam.
@@ -42,7 +50,8 @@ class Canvas {
   void text(Point at, const std::string& words, double size, const Colour& colour,
             Align align = Align::left, bool bold = false);
 
-  /// Completes the picture: the bytes of its file. Throws std::runtime_error if something could not
+  /// Completes the picture: the bytes of its file, of pixels row by row blue, green, red and a byte
+  /// without meaning. Throws std::runtime_error if something could not
   /// be drawn.
   std::string finish();
 

@@ -25,6 +25,22 @@ Colour strain_colour(double area_ratio, double range) {
   return mix(colours::paper, end, std::abs(strain));
 }
 
+Colour sequential_colour(double t) {
+  constexpr Colour stops[] = {{0.000, 0.135, 0.305},
+                              {0.266, 0.306, 0.424},
+                              {0.490, 0.486, 0.471},
+                              {0.737, 0.687, 0.433},
+                              {0.996, 0.909, 0.217}};
+  constexpr int pieces = static_cast<int>(std::size(stops)) - 1;
+  const double place = std::clamp(t, 0.0, 1.0) * pieces;
+  const auto piece = static_cast<std::size_t>(std::min(static_cast<int>(place), pieces - 1));
+  return mix(stops[piece], stops[piece + 1], place - static_cast<double>(piece));
+}
+
+Colour contact_colour(bool touches) {
+  return touches ? Colour{0.76, 0.34, 0.02} : Colour{0.86, 0.87, 0.88};
+}
+
 namespace {
 
 double srgb(double linear) {

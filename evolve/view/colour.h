@@ -28,6 +28,13 @@ Colour mix(const Colour& a, const Colour& b, double t);
 /// contracted, red expanded (figures 3, 6); saturated at 1 -+ `range`.
 Colour strain_colour(double area_ratio, double range = 0.4);
 
+/// From dark blue over grey to yellow as t goes from 0 to 1: lighter is more, for the colour-blind
+/// too (cividis; Nunez, Anderton and Renslow 2018).
+Colour sequential_colour(double t);
+
+/// Dark orange where something is touched, light grey elsewhere.
+Colour contact_colour(bool touches);
+
 /// Colour of a phase shift in radians (figure 9): cyclic, of even lightness.
 Colour phase_colour(double phase);
 

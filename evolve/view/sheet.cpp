@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "evolve/view/legend.h"
+
 namespace metamorph::evolve {
 namespace {
 
@@ -98,51 +100,19 @@ void draw_scale_bar(Canvas& canvas, Point right_end, double scale) {
               Align::centre);
 }
 
-// A strip of colours with words at its ends and in its middle.
-template <class ColourAt>
-void draw_strip(Canvas& canvas, Point at, const std::array<std::string, 3>& words,
-                ColourAt&& colour) {
-  constexpr double length = 230, thickness = 10;
-  constexpr int pieces = 90;
-  for (int i = 0; i < pieces; ++i) {
-    const double x = at.x + length * i / pieces;
-    // Each piece reaches under the next one, so that no seam shows.
-    const double end = std::min(at.x + length, x + 2 * length / pieces);
-    const std::array piece{Point{x, at.y - 8}, Point{end, at.y - 8},
-                           Point{end, at.y - 8 - thickness}, Point{x, at.y - 8 - thickness}};
-    canvas.fill_polygon(piece, colour((i + 0.5) / pieces));
-  }
-  canvas.text({at.x, at.y + 6}, words[0], text_size, colours::faint_ink);
-  canvas.text({at.x + length / 2, at.y + 6}, words[1], text_size, colours::faint_ink,
-              Align::centre);
-  canvas.text({at.x + length, at.y + 6}, words[2], text_size, colours::faint_ink, Align::right);
-}
-
 void draw_legend(Canvas& canvas, const Sheet& sheet, Point at) {
   switch (sheet.legend) {
     case Legend::none:
       break;
-    case Legend::birth: {
-      double x = at.x;
-      for (int stage = 0; stage < sheet.stages; ++stage) {
-        const Colour colour = birth_colour(stage);
-        const std::string words = stage == 0 ? "larval cells"
-                                  : sheet.stages <= 2
-                                      ? "born in metamorphosis"
-                                      : "born in metamorphosis " + std::to_string(stage);
-        canvas.fill_circle({x + 6, at.y - 4}, 6, mix(colour, colours::paper, 0.25));
-        canvas.stroke_circle({x + 6, at.y - 4}, 5.5, mix(colour, colours::ink, 0.35), 1);
-        canvas.text({x + 18, at.y}, words, text_size, colours::faint_ink);
-        x += 18 + text_width(words, text_size) + 20;
-      }
+    case Legend::birth:
+      draw_discs(canvas, at, birth_discs(sheet.stages), text_size);
       break;
-    }
     case Legend::strain:
-      draw_strip(canvas, at, {"contracted", "at rest", "expanded"},
+      draw_strip(canvas, at, {"contracted", "at rest", "expanded"}, text_size,
                  [](double t) { return strain_colour(0.6 + 0.8 * t); });
       break;
     case Legend::phase:
-      draw_strip(canvas, at, {"\u2212\u03c0", "phase 0", "\u03c0"},
+      draw_strip(canvas, at, {"\u2212\u03c0", "phase 0", "\u03c0"}, text_size,
                  [](double t) { return phase_colour(std::numbers::pi * (2 * t - 1)); });
       break;
   }
