@@ -31,6 +31,14 @@ PUBLIC_OF_CORE = {
                    "scene", "scene_fields", "stability", "step_refusal"),
     "reference": ("reference",),
 }
+# Folders of evolve that are to know no more of it than this, whoever includes them.
+EVOLVE_MAY_INCLUDE = {
+    "files": {"files"},
+    "view": {"view", "files"},
+    "study": {"study", "run", "experiment", "files", "view"},
+}
+# And folders of evolve that only these may include.
+EVOLVE_INCLUDED_BY = {"study": {"study", "app"}}
 TOP_LEVEL_FOLDERS = set(ROOMS)
 TOP_LEVEL_FILES = {"CMakeLists.txt", "CMakePresets.json", "CMakeUserPresets.json", "README.md",
                    "LICENSE", "CHANGELOG.md", "CITATION.cff", "CONTRIBUTING.md", "Doxyfile",
@@ -106,6 +114,20 @@ def core_faults(core):
     yield from cycles(graph)
 
 
+def evolve_faults(evolve):
+    """Includes between the folders of evolve against the arrows."""
+    for path in sources(evolve):
+        relative = path.relative_to(evolve)
+        own = relative.parts[0]
+        for number, _, target in includes(path):
+            parts = target.split("/")
+            if parts[0] != "evolve" or len(parts) < 3:
+                continue
+            if (parts[1] not in EVOLVE_MAY_INCLUDE.get(own, {parts[1]})
+                    or own not in EVOLVE_INCLUDED_BY.get(parts[1], {own})):
+                yield f"evolve/{relative}:{number}: {own}/ may not include {target}"
+
+
 def cycles(graph):
     done = set()
 
@@ -158,14 +180,17 @@ def self_test():
         write(root, "core/body/parts.h", "metamorph/body.h", "core/locomotion/runner.h")
         write(root, "core/locomotion/runner.h", "core/development/links.h", "kernels/a.h")
         write(root, "core/stray.h", "metamorph/body.h")
+        write(root, "evolve/view/chart.h", "evolve/run/run_reader.h", "evolve/files/output_file.h")
+        write(root, "evolve/run/run.cpp", "evolve/study/curves.h", "evolve/run/run.h")
         write(root, "core/example/bodies.cpp", "metamorph/body.h", "core/body/parts.h")
         public = public_headers(root)
         assert len(list(include_faults("kernels", root / "kernels", public))) == 2
         assert len(list(include_faults("core", root / "core", public))) == 2
         # parts to runner, runner to links, stray; body and parts include each other.
         assert len(list(core_faults(root / "core"))) == 4
+        assert len(list(evolve_faults(root / "evolve"))) == 2
         (root / "stray.txt").write_text("")
-        assert len(list(top_level_faults(root))) == 4
+        assert len(list(top_level_faults(root))) == 3
 
 
 def main():
@@ -174,6 +199,7 @@ def main():
     public = public_headers(root)
     faults = [fault for name in ROOMS for fault in include_faults(name, root / name, public)]
     faults += core_faults(root / "core")
+    faults += evolve_faults(root / "evolve")
     faults += top_level_faults(root)
     for line in long_files(root):
         print("long file, worth a look:", line)

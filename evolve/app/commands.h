@@ -16,6 +16,7 @@ void add_export_command(CLI::App& app);
 void add_film_command(CLI::App& app);
 void add_grow_command(CLI::App& app);
 void add_info_command(CLI::App& app);
+void add_plot_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "evolve/experiment/experiment_file.h"
+#include "evolve/files/csv_text.h"
 #include "evolve/files/genome_file.h"
 #include "evolve/files/input_error.h"
 #include "evolve/run/integrity.h"
@@ -18,16 +19,6 @@ namespace {
 std::filesystem::path record_of(const std::filesystem::path& run) {
   std::error_code error;
   return std::filesystem::is_directory(run, error) ? run / record_file : run;
-}
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"') result += '"';
-    result += c;
-  }
-  return result + '"';
 }
 
 }  // namespace
@@ -193,6 +184,19 @@ std::vector<std::string> RunReader::tables() const {
   return names;
 }
 
+double TableRow::number(int column) const { return row_.real(column); }
+int TableRow::integer(int column) const { return static_cast<int>(row_.integer(column)); }
+std::string TableRow::text(int column) const { return row_.text(column); }
+
+void RunReader::read(const std::string& table, const std::string& columns,
+                     const std::function<void(const TableRow&)>& visit) const {
+  const Reading reading(*this);
+  integrity_->check_table(table);
+  Statement select(*database_, fmt::format("SELECT {} FROM \"{}\"", columns, table));
+  const TableRow row(select);
+  while (select.step()) visit(row);
+}
+
 void RunReader::write_csv(const std::string& table,
                           const std::function<void(std::string_view)>& write) const {
   const Reading reading(*this);
@@ -205,7 +209,7 @@ void RunReader::write_csv(const std::string& table,
   Statement select(*database_, fmt::format("SELECT * FROM \"{}\"", table));
   std::string line;
   for (int c = 0; c < select.columns(); ++c) {
-    line.append(c == 0 ? "" : ",").append(quoted(select.name(c)));
+    line.append(c == 0 ? "" : ",").append(csv_field(select.name(c)));
   }
   write(line + '\n');
   while (select.step()) {
@@ -215,7 +219,7 @@ void RunReader::write_csv(const std::string& table,
       if (select.is_real(c)) {
         line += fmt::format("{}", select.real(c));
       } else if (!select.is_null(c)) {
-        line += quoted(select.text(c));
+        line += csv_field(select.text(c));
       }
     }
     write(line + '\n');

@@ -18,6 +18,7 @@ namespace metamorph::evolve {
 
 class Database;
 class Integrity;
+class Statement;
 
 /// The best individual by eq 6 of one generation, as recorded.
 struct Champion {
@@ -28,6 +29,18 @@ struct Champion {
   Genome genome;                      ///< exact: replays to the recorded bits
   std::vector<double> distances;      ///< [trials] d; 0 where not run
   std::vector<std::string> statuses;  ///< [trials] "" where not run
+};
+
+/// A row of a table while it is read; columns are counted as they were asked for.
+class TableRow {
+ public:
+  explicit TableRow(const Statement& row) : row_(row) {}
+  double number(int column) const;  ///< NaN: NULL
+  int integer(int column) const;
+  std::string text(int column) const;
+
+ private:
+  const Statement& row_;
 };
 
 /// Reads the record of a run, also while it is being written. What it gives is what was written:
@@ -53,6 +66,9 @@ class RunReader {
   SearchHealth health() const;
 
   std::vector<std::string> tables() const;  ///< tables and views
+  /// Visits all rows of a table or view, in no promised order. Precondition: it has these columns.
+  void read(const std::string& table, const std::string& columns,
+            const std::function<void(const TableRow&)>& visit) const;
   /// A table as CSV: a header line, then the rows in order of their key; numbers read back to the
   /// same bits, NULL is empty.
   void write_csv(const std::string& table,

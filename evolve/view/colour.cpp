@@ -14,6 +14,16 @@ Colour birth_colour(int stage) {
   return stage <= 0 ? first : later[static_cast<std::size_t>(stage - 1) % std::size(later)];
 }
 
+Colour curve_colour(int number) {
+  constexpr Colour palette[curve_colours] = {{0.000, 0.447, 0.698},   // blue
+                                             {0.835, 0.369, 0.000},   // vermillion
+                                             {0.000, 0.620, 0.451},   // bluish green
+                                             {0.800, 0.475, 0.655},   // reddish purple
+                                             {0.902, 0.624, 0.000},   // orange
+                                             {0.337, 0.706, 0.914}};  // sky blue
+  return palette[number % curve_colours];
+}
+
 Colour mix(const Colour& a, const Colour& b, double t) {
   return {std::lerp(a.red, b.red, t), std::lerp(a.green, b.green, t), std::lerp(a.blue, b.blue, t),
           std::lerp(a.alpha, b.alpha, t)};

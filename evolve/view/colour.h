@@ -15,11 +15,17 @@ inline constexpr Colour paper{1, 1, 1};                ///< background
 inline constexpr Colour contracted{0.16, 0.38, 0.76};  ///< the end of the strain scale below 1
 inline constexpr Colour expanded{0.83, 0.20, 0.18};    ///< the end of the strain scale above 1
 inline constexpr Colour ground{0.55, 0.52, 0.46};
+inline constexpr Colour grid{0.90, 0.91, 0.92};  ///< lines behind curves
 }  // namespace colours
 
 /// Of cells born in a stage of life, counted from 0: blue in the first, red in the metamorphosis to
 /// the second (figure 4), then ochre, green and violet, and again from red on.
 Colour birth_colour(int stage);
+
+/// Colours that tell curves apart, also for the colour-blind (Okabe and Ito 2008; without black and
+/// yellow, which are text and too light for a line), from the first again after the last.
+inline constexpr int curve_colours = 6;
+Colour curve_colour(int number);
 
 /// (1 - t) a + t b in every channel; t in [0, 1].
 Colour mix(const Colour& a, const Colour& b, double t);

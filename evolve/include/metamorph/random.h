@@ -15,6 +15,7 @@ enum class Purpose : std::uint32_t {
   trial_start = 7,
   niche_centre = 20,
   archive_choice = 21,
+  bootstrap = 30,
   test = 1000,
 };
 
