@@ -12,6 +12,7 @@
 #include "evolve/experiment/experiment_file.h"
 #include "evolve/files/genome_file.h"
 #include "evolve/files/input_error.h"
+#include "evolve/files/output_file.h"
 #include "evolve/run/descriptor_table.h"
 #include "evolve/run/outcome_table.h"
 #include "evolve/run/record_schema.h"
@@ -110,7 +111,8 @@ Record::Record(const std::filesystem::path& directory, const Experiment& experim
   begin_journal();
 }
 
-std::unique_ptr<Record> Record::resume(const std::filesystem::path& directory, int threads) {
+std::unique_ptr<Record> Record::resume(const std::filesystem::path& directory, int threads,
+                                       const std::function<void(Record&)>& accept) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(directory / record_file, error)) {
     throw InputError(fmt::format("{}: holds no {}: expected the directory of a run",
@@ -120,24 +122,10 @@ std::unique_ptr<Record> Record::resume(const std::filesystem::path& directory, i
   record->lock_ = std::make_unique<DirectoryLock>(directory);
   record->database_ = std::make_unique<Database>(directory / record_file, Database::Mode::write);
   Database& database = *record->database_;
-  {
-    Statement tables(database, "SELECT count(*) FROM sqlite_master WHERE name = 'run'");
-    tables.step();
-    if (tables.integer(0) == 0) {
-      throw InputError(
-          fmt::format("{}: holds no experiment: this is no record of a run, or was copied without "
-                      "the {}-wal or {}-journal that stood beside it",
-                      database.file().string(), record_file, record_file));
-    }
-  }
-  {
-    Statement format(database, "SELECT value FROM run WHERE key = 'format'");
-    if (!format.step() || format.text(0) != record_format) {
-      throw InputError(fmt::format("{}: format = \"{}\": expected \"{}\"", database.file().string(),
-                                   format.text(0), record_format));
-    }
-  }
+  require_format(database);
   Integrity(database).check_all();
+  if (accept) accept(*record);
+  remove_abandoned(directory);
   record->begin_journal();
   Transaction transaction(database);
   record->start_session(threads);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "evolve/experiment/experiment.h"
@@ -37,8 +38,10 @@ class Record {
   /// Makes the directory and an empty record in it. Refuses a directory that is not empty.
   Record(const std::filesystem::path& directory, const Experiment& experiment, int threads);
 
-  /// Opens a run to go on with it, after checking that it is whole.
-  static std::unique_ptr<Record> resume(const std::filesystem::path& directory, int threads);
+  /// Opens a run to go on with it, after checking that it is whole. Nothing is written before
+  /// `accept`, if set, has looked at it; what that throws leaves it as it was.
+  static std::unique_ptr<Record> resume(const std::filesystem::path& directory, int threads,
+                                        const std::function<void(Record&)>& accept = {});
 
   ~Record();  ///< as close(), but for failures, of which it says nothing
   Record(const Record&) = delete;
