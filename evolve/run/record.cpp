@@ -291,12 +291,14 @@ void Record::write(const GenerationResult& result, const PhaseSeconds& seconds,
   write_individuals(result);
   write_summary(result);
   write_search(result, search);
-  write_clock(result, seconds);
+  const TableDigest timings = write_clock(result, seconds);
   write_digests(*database_, Ledger::chained, result.generation, written_);
   const std::uint64_t chain = chained(chain_, result.generation, written_);
   write_checkpoint({search.generation(), search.save(), best, chain});
   transaction.commit();
+  // Only now: what fails before is rolled back, and the record may still be closed.
   chain_ = chain;
+  last_timings_ = timings;
   last_generation_ = result.generation;
   last_duration_ = watch.lap();
 }
@@ -305,10 +307,11 @@ Statement Record::insertion(const std::string& table, const std::string& sql) {
   return Statement(*database_, sql, &written_[table]);
 }
 
-/// What no other run of the experiment has alike.
-void Record::write_clock(const GenerationResult& result, const PhaseSeconds& seconds) {
-  last_timings_ = {};
-  Statement timing(*database_, "INSERT INTO timings VALUES (?, ?, ?)", &last_timings_);
+/// What no other run of the experiment has alike. Returns the digest of the timings, which wait for
+/// the last one.
+TableDigest Record::write_clock(const GenerationResult& result, const PhaseSeconds& seconds) {
+  TableDigest timings;
+  Statement timing(*database_, "INSERT INTO timings VALUES (?, ?, ?)", &timings);
   const auto values = seconds.values();
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {  // the last phase is writing this
     timing.bind(result.generation).bind(PhaseSeconds::names[i]).bind(values[i]).run();
@@ -318,15 +321,16 @@ void Record::write_clock(const GenerationResult& result, const PhaseSeconds& sec
   work.bind(result.generation).bind(result.work.individuals).bind(result.work.developed);
   work.bind(result.work.bodies).bind(result.work.simulated).run();
   write_digests(*database_, Ledger::session, result.generation,
-                {{"timings", last_timings_}, {"work", digest}});
+                {{"timings", timings}, {"work", digest}});
+  return timings;
 }
 
 void Record::write_last_duration() {
   if (last_generation_ < 0) return;
-  Statement timing(*database_, "INSERT INTO timings VALUES (?, ?, ?)", &last_timings_);
+  TableDigest timings = last_timings_;
+  Statement timing(*database_, "INSERT INTO timings VALUES (?, ?, ?)", &timings);
   timing.bind(last_generation_).bind(PhaseSeconds::names.back()).bind(last_duration_).run();
-  write_digests(*database_, Ledger::session, last_generation_, {{"timings", last_timings_}});
-  last_generation_ = -1;
+  write_digests(*database_, Ledger::session, last_generation_, {{"timings", timings}});
 }
 
 void Record::write_individuals(const GenerationResult& result) {
