@@ -89,17 +89,20 @@ std::unique_ptr<Record> open_record(const Arguments& given) {
         given.out.empty() ? default_directory(experiment) : std::filesystem::path(given.out),
         experiment, given.threads);
   }
-  std::unique_ptr<Record> record = Record::resume(given.resume, given.threads);
-  require_memory(record->experiment(), given.threads);
-  if (!given.generations.empty()) {
-    const Experiment recorded = record->experiment();
-    // Through the same checks as every other way to give the number.
-    const int generations = parse_experiment(to_toml(recorded), given.resume,
-                                             {{"--generations", "generations", given.generations}})
-                                .generations;
-    check_new_generations(recorded, record->generations_done(), generations);
-    if (generations != recorded.generations) record->change_generations(generations);
-  }
+  int generations = 0, recorded_generations = 0;
+  std::unique_ptr<Record> record =
+      Record::resume(given.resume, given.threads, [&](Record& accepted) {
+        const Experiment recorded = accepted.experiment();
+        require_memory(recorded, given.threads);
+        generations = recorded_generations = recorded.generations;
+        if (given.generations.empty()) return;
+        // Through the same checks as every other way to give the number.
+        generations = parse_experiment(to_toml(recorded), given.resume,
+                                       {{"--generations", "generations", given.generations}})
+                          .generations;
+        check_new_generations(recorded, accepted.generations_done(), generations);
+      });
+  if (generations != recorded_generations) record->change_generations(generations);
   return record;
 }
 

@@ -1,11 +1,13 @@
 #include "evolve/files/output_file.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <system_error>
 #include <utility>
@@ -72,11 +74,22 @@ fs::path target_of(const fs::path& file, Overwrite overwrite) {
   return target;
 }
 
+constexpr std::string_view temporary_begin = ".metamorph-", temporary_end = ".part";
+
 /// A name for a moment beside the file; each call gives another one.
 fs::path temporary_in(const fs::path& directory) {
   static std::atomic<unsigned> count = 0;
-  return directory / (".metamorph-" + std::to_string(::getpid()) + "-" +
-                      std::to_string(count.fetch_add(1)) + ".part");
+  std::string name(temporary_begin);
+  name += std::to_string(::getpid()) + "-" + std::to_string(count.fetch_add(1));
+  return directory / name.append(temporary_end);
+}
+
+/// Whether a file has a temporary name, and the process that gave it is no more.
+bool is_abandoned(const std::string& name) {
+  if (!name.starts_with(temporary_begin) || !name.ends_with(temporary_end)) return false;
+  pid_t process = 0;
+  std::from_chars(name.data() + temporary_begin.size(), name.data() + name.size(), process);
+  return process > 0 && ::kill(process, 0) != 0 && errno == ESRCH;
 }
 
 std::string descriptor_path(int descriptor) {
@@ -84,6 +97,15 @@ std::string descriptor_path(int descriptor) {
 }
 
 }  // namespace
+
+void remove_abandoned(const fs::path& directory) {
+  std::error_code error;
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code ignored;
+    if (is_abandoned(entry->path().filename().string())) fs::remove(entry->path(), ignored);
+  }
+}
 
 void check_writable(const fs::path& file, Overwrite overwrite) { target_of(file, overwrite); }
 

@@ -10,7 +10,8 @@ enum class Overwrite { no, yes };
 
 /// A file that appears whole or not at all: it is written where nobody sees it, and has its name
 /// when commit() returns, on the disk as well. What is killed before leaves nothing behind, where
-/// the file system can hold a file without a name (else a hidden .metamorph-*.part).
+/// the file system can hold a file without a name; else, and in the moment in which it takes the
+/// place of another one, a hidden .metamorph-*.part.
 /// Nothing existing is replaced unless Overwrite::yes says so, nor what others put there meanwhile;
 /// what is replaced is whole until then, and its rights are kept. A symbolic link stays: what it
 /// leads to is written. Devices, pipes and sockets are refused, for they cannot be replaced.
@@ -48,6 +49,10 @@ class OutputFile {
 
 /// Writes a whole file through OutputFile.
 void write_file(const std::filesystem::path& file, std::string_view text, Overwrite overwrite);
+
+/// Removes each .metamorph-*.part in `directory` whose writer was killed. On a disk that machines
+/// share the caller has to know that no other one writes there.
+void remove_abandoned(const std::filesystem::path& directory);
 
 /// Throws InputError if `file` exists and may not be overwritten, or its place cannot be written:
 /// to be asked before long work whose result will be written there.

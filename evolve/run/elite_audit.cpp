@@ -1,12 +1,5 @@
 #include "evolve/run/elite_audit.h"
 
-#include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
-
-#include "evolve/files/input_error.h"
-#include "evolve/run/sqlite.h"
-#include "evolve/search/population_json.h"
 #include "metamorph/metrics.h"
 #include "metamorph/threads.h"
 
@@ -25,37 +18,6 @@ EvaluationRules with_fresh_starts(const Experiment& experiment, double displacem
   return rules;
 }
 
-/// The last row of every niche.
-std::vector<Genome> read_elites(const RunReader& run, MapAudit& audited) {
-  Database record(run.file(), Database::Mode::read);
-  Statement known(record, "SELECT count(*) FROM sqlite_master WHERE name = 'elites'");
-  known.step();
-  if (known.integer(0) == 0) {
-    throw InputError(
-        fmt::format("{}: has no table elites: expected a run of map-elites", run.file().string()));
-  }
-  Statement niches(record, "SELECT niches FROM qd LIMIT 1");
-  if (niches.step()) audited.niches = static_cast<int>(niches.integer(0));
-  Statement last(record,
-                 "SELECT niche, individual, quality, genome, max(generation) FROM elites GROUP BY "
-                 "niche ORDER BY niche");
-  std::vector<Genome> genomes;
-  while (last.step()) {
-    audited.elites.push_back({static_cast<int>(last.integer(0)), last.integer(1), last.real(2), 0});
-    try {
-      genomes.push_back(genome_of(nlohmann::json::parse(last.text(3))));
-    } catch (const nlohmann::json::exception& error) {
-      throw InputError(fmt::format("{}: elite of niche {}: {}", run.file().string(),
-                                   last.integer(0), error.what()));
-    }
-  }
-  if (genomes.empty()) {
-    throw InputError(
-        fmt::format("{}: no niche is filled yet: expected one at least", run.file().string()));
-  }
-  return genomes;
-}
-
 }  // namespace
 
 MapAudit audit_elites(const RunReader& run, const EliteAuditOptions& options,
@@ -64,8 +26,11 @@ MapAudit audit_elites(const RunReader& run, const EliteAuditOptions& options,
   const Experiment experiment = run.experiment();
   MapAudit audited;
   std::vector<core::Network> networks;
-  for (const Genome& genome : read_elites(run, audited)) {
-    networks.push_back(compile(genome, shape_of(experiment.development)));
+  const RecordedMap map = run.elites();
+  audited.niches = map.niches;
+  for (const RecordedElite& elite : map.elites) {
+    audited.elites.push_back({elite.niche, elite.individual, elite.quality, 0});
+    networks.push_back(compile(elite.genome, shape_of(experiment.development)));
   }
   Evaluator evaluator(with_fresh_starts(experiment, options.displacement),
                       core::thread_count(options.threads));

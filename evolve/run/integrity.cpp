@@ -7,6 +7,7 @@
 
 #include "evolve/files/input_error.h"
 #include "evolve/run/checkpoint.h"
+#include "evolve/run/record_schema.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -145,6 +146,25 @@ RowDigests digests_of(Database& database, const std::string& table) {
   RowHash hash;
   while (rows.step()) hash_row(rows, hash, found.of[found.is_numbered ? rows.integer(0) : 0]);
   return found;
+}
+
+void require_format(Database& database) {
+  const std::string file = database.file().string();
+  Statement tables(database, "SELECT count(*) FROM sqlite_master WHERE name = 'run'");
+  tables.step();
+  if (tables.integer(0) == 0) {
+    throw InputError(
+        fmt::format("{}: holds no experiment: expected \"{}\", the record of a run, with the "
+                    "{}-wal or {}-journal that stood beside it",
+                    file, record_format, record_file, record_file));
+  }
+  Statement select(database, "SELECT value FROM run WHERE key = 'format'");
+  const std::string format = select.step() ? select.text(0) : "";
+  if (format != record_format) {
+    throw InputError(
+        fmt::format("{}: format = \"{}\": expected \"{}\", the record of a run of this version",
+                    file, format, record_format));
+  }
 }
 
 bool is_framed(Database& database) {

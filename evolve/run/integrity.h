@@ -46,12 +46,15 @@ struct RowDigests {
 };
 RowDigests digests_of(Database& database, const std::string& table);
 
+/// Throws InputError unless the database holds an experiment of a run of this version.
+void require_format(Database& database);
+
 /// True if the record has been given its tables and its experiment's digests.
 bool is_framed(Database& database);
 
 /// Whether a record is what was written. All faults throw InputError with one line that names the
 /// file, the table and where known the generation. Precondition of every call: the database shows
-/// one state meanwhile (Snapshot, or nobody else writes).
+/// one state meanwhile (ReadTransaction, or nobody else writes).
 class Integrity {
  public:
   explicit Integrity(Database& database) : database_(database) {}

@@ -31,18 +31,33 @@ Sheet individual_sheet(const Experiment& experiment, const Genome& genome,
   return sheet;
 }
 
+void PictureReporter::started(const RunStart& start) {
+  directory_ = start.directory;
+  if (start.best.generation < 0) return;
+  draw(start.experiment, start.best, [&] {
+    return Evaluator(rules_of(start.experiment), 1)
+        .evaluate_fully(networks_of(start.experiment, start.best.genome), start.best.generation)
+        .trials;
+  });
+}
+
 void PictureReporter::generation_done(const GenerationReport& report) {
   if (!report.improved) return;
-  const std::size_t champion = report.result.champion;
+  draw(report.experiment, report.best,
+       [&] { return report.result.individuals[report.result.champion].trials; });
+}
+
+void PictureReporter::draw(const Experiment& experiment, const BestEver& best,
+                           const std::function<std::vector<core::Outcome>()>& trials) {
   const std::string heading =
-      fmt::format("{}, seed {}: best until generation {}, {:.3f} d (eq 6)", report.experiment.name,
-                  report.experiment.seed, report.best.generation, report.best.eq6);
+      fmt::format("{}, seed {}: best until generation {}, {:.3f} d (eq 6)", experiment.name,
+                  experiment.seed, best.generation, best.eq6);
   try {
-    const Sheet sheet = individual_sheet(report.experiment, report.best.genome,
-                                         report.result.individuals[champion].trials, heading);
+    const Sheet sheet = individual_sheet(experiment, best.genome, trials(), heading);
     for (const char* name : {"best.svg", "best.png"}) {
       write_sheet(sheet, (directory_ / name).string(), Overwrite::yes);
     }
+    failure_.clear();
   } catch (const std::exception& error) {
     failure_ = error.what();
   }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "evolve/run/reporter.h"
 #include "evolve/view/sheet.h"
@@ -13,15 +15,19 @@ Sheet individual_sheet(const Experiment& experiment, const Genome& genome,
                        std::span<const core::Outcome> trials, const std::string& heading);
 
 /// Keeps best.svg and best.png in the run's directory showing the best individual so far. A picture
-/// that cannot be written costs the run nothing; the reason is kept for the end.
+/// that cannot be written costs the run nothing; the reason is kept for the end. A run that goes on
+/// draws them anew: its last session may have ended between a generation and its pictures.
 class PictureReporter : public Reporter {
  public:
-  void started(const RunStart& start) override { directory_ = start.directory; }
+  void started(const RunStart& start) override;
   void generation_done(const GenerationReport& report) override;
 
-  const std::string& failure() const { return failure_; }  ///< "" if all went well
+  const std::string& failure() const { return failure_; }  ///< "" if the last pictures are there
 
  private:
+  void draw(const Experiment& experiment, const BestEver& best,
+            const std::function<std::vector<core::Outcome>()>& trials);
+
   std::filesystem::path directory_;
   std::string failure_;
 };

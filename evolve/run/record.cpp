@@ -12,6 +12,7 @@
 #include "evolve/experiment/experiment_file.h"
 #include "evolve/files/genome_file.h"
 #include "evolve/files/input_error.h"
+#include "evolve/files/output_file.h"
 #include "evolve/run/descriptor_table.h"
 #include "evolve/run/outcome_table.h"
 #include "evolve/run/record_schema.h"
@@ -110,7 +111,8 @@ Record::Record(const std::filesystem::path& directory, const Experiment& experim
   begin_journal();
 }
 
-std::unique_ptr<Record> Record::resume(const std::filesystem::path& directory, int threads) {
+std::unique_ptr<Record> Record::resume(const std::filesystem::path& directory, int threads,
+                                       const std::function<void(Record&)>& accept) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(directory / record_file, error)) {
     throw InputError(fmt::format("{}: holds no {}: expected the directory of a run",
@@ -120,24 +122,10 @@ std::unique_ptr<Record> Record::resume(const std::filesystem::path& directory, i
   record->lock_ = std::make_unique<DirectoryLock>(directory);
   record->database_ = std::make_unique<Database>(directory / record_file, Database::Mode::write);
   Database& database = *record->database_;
-  {
-    Statement tables(database, "SELECT count(*) FROM sqlite_master WHERE name = 'run'");
-    tables.step();
-    if (tables.integer(0) == 0) {
-      throw InputError(
-          fmt::format("{}: holds no experiment: this is no record of a run, or was copied without "
-                      "the {}-wal or {}-journal that stood beside it",
-                      database.file().string(), record_file, record_file));
-    }
-  }
-  {
-    Statement format(database, "SELECT value FROM run WHERE key = 'format'");
-    if (!format.step() || format.text(0) != record_format) {
-      throw InputError(fmt::format("{}: format = \"{}\": expected \"{}\"", database.file().string(),
-                                   format.text(0), record_format));
-    }
-  }
+  require_format(database);
   Integrity(database).check_all();
+  if (accept) accept(*record);
+  remove_abandoned(directory);
   record->begin_journal();
   Transaction transaction(database);
   record->start_session(threads);
@@ -303,12 +291,14 @@ void Record::write(const GenerationResult& result, const PhaseSeconds& seconds,
   write_individuals(result);
   write_summary(result);
   write_search(result, search);
-  write_clock(result, seconds);
+  const TableDigest timings = write_clock(result, seconds);
   write_digests(*database_, Ledger::chained, result.generation, written_);
   const std::uint64_t chain = chained(chain_, result.generation, written_);
   write_checkpoint({search.generation(), search.save(), best, chain});
   transaction.commit();
+  // Only now: what fails before is rolled back, and the record may still be closed.
   chain_ = chain;
+  last_timings_ = timings;
   last_generation_ = result.generation;
   last_duration_ = watch.lap();
 }
@@ -317,10 +307,11 @@ Statement Record::insertion(const std::string& table, const std::string& sql) {
   return Statement(*database_, sql, &written_[table]);
 }
 
-/// What no other run of the experiment has alike.
-void Record::write_clock(const GenerationResult& result, const PhaseSeconds& seconds) {
-  last_timings_ = {};
-  Statement timing(*database_, "INSERT INTO timings VALUES (?, ?, ?)", &last_timings_);
+/// What no other run of the experiment has alike. Returns the digest of the timings, which wait for
+/// the last one.
+TableDigest Record::write_clock(const GenerationResult& result, const PhaseSeconds& seconds) {
+  TableDigest timings;
+  Statement timing(*database_, "INSERT INTO timings VALUES (?, ?, ?)", &timings);
   const auto values = seconds.values();
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {  // the last phase is writing this
     timing.bind(result.generation).bind(PhaseSeconds::names[i]).bind(values[i]).run();
@@ -330,15 +321,16 @@ void Record::write_clock(const GenerationResult& result, const PhaseSeconds& sec
   work.bind(result.generation).bind(result.work.individuals).bind(result.work.developed);
   work.bind(result.work.bodies).bind(result.work.simulated).run();
   write_digests(*database_, Ledger::session, result.generation,
-                {{"timings", last_timings_}, {"work", digest}});
+                {{"timings", timings}, {"work", digest}});
+  return timings;
 }
 
 void Record::write_last_duration() {
   if (last_generation_ < 0) return;
-  Statement timing(*database_, "INSERT INTO timings VALUES (?, ?, ?)", &last_timings_);
+  TableDigest timings = last_timings_;
+  Statement timing(*database_, "INSERT INTO timings VALUES (?, ?, ?)", &timings);
   timing.bind(last_generation_).bind(PhaseSeconds::names.back()).bind(last_duration_).run();
-  write_digests(*database_, Ledger::session, last_generation_, {{"timings", last_timings_}});
-  last_generation_ = -1;
+  write_digests(*database_, Ledger::session, last_generation_, {{"timings", timings}});
 }
 
 void Record::write_individuals(const GenerationResult& result) {

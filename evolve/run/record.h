@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "evolve/experiment/experiment.h"
@@ -37,8 +38,10 @@ class Record {
   /// Makes the directory and an empty record in it. Refuses a directory that is not empty.
   Record(const std::filesystem::path& directory, const Experiment& experiment, int threads);
 
-  /// Opens a run to go on with it, after checking that it is whole.
-  static std::unique_ptr<Record> resume(const std::filesystem::path& directory, int threads);
+  /// Opens a run to go on with it, after checking that it is whole. Nothing is written before
+  /// `accept`, if set, has looked at it; what that throws leaves it as it was.
+  static std::unique_ptr<Record> resume(const std::filesystem::path& directory, int threads,
+                                        const std::function<void(Record&)>& accept = {});
 
   ~Record();  ///< as close(), but for failures, of which it says nothing
   Record(const Record&) = delete;
@@ -72,7 +75,7 @@ class Record {
   /// A statement that writes rows of the generation, which its digest counts.
   Statement insertion(const std::string& table, const std::string& sql);
   void write_checkpoint(const Checkpoint& checkpoint);
-  void write_clock(const GenerationResult& result, const PhaseSeconds& seconds);
+  TableDigest write_clock(const GenerationResult& result, const PhaseSeconds& seconds);
   void finish();
   void write_individuals(const GenerationResult& result);
   void write_summary(const GenerationResult& result);
@@ -85,9 +88,10 @@ class Record {
   std::vector<std::string> tables_;  ///< whose rows are counted in every generation
   Digests written_;                  ///< in this generation
   std::uint64_t chain_ = 0;          ///< of all digests so far
-  TableDigest last_timings_;         ///< of last_generation_
-  int last_generation_ = -1;  ///< whose writing took last_duration_ seconds, not yet recorded
-  double last_duration_ = 0;
+  // Of the last generation that is committed; how long it took to write is recorded with the next.
+  TableDigest last_timings_;
+  int last_generation_ = -1;  ///< -1: none in this session
+  double last_duration_ = 0;  ///< s
 };
 
 }  // namespace metamorph::evolve

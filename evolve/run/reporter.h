@@ -13,6 +13,7 @@ struct RunStart {
   const Experiment& experiment;
   const std::filesystem::path& directory;
   int first_generation = 0;  ///< above 0: resumed
+  const BestEver& best;      ///< of the generations before; nobody if there are none
 };
 
 /// One generation, already safe in the record.

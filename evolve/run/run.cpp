@@ -89,7 +89,7 @@ RunSummary run(Record& record, const RunOptions& options) {
   BestEver best = record.restore(*search);
   Evaluator evaluator(rules_of(experiment), threads, options.checked_links);
   RunSummary summary;
-  const RunStart start{experiment, record.directory(), search->generation()};
+  const RunStart start{experiment, record.directory(), search->generation(), best};
   for (Reporter* reporter : options.reporters) reporter->started(start);
 
   while (search->generation() < experiment.generations) {

@@ -27,35 +27,24 @@ std::filesystem::path record_of(const std::filesystem::path& run) {
 class RunReader::Reading {
  public:
   explicit Reading(const RunReader& run)
-      : snapshot_(*run.database_), generations_(run.integrity_->check_frame()) {}
+      : one_state_(*run.database_), generations_(run.integrity_->check_frame()) {}
   int generations() const { return generations_; }
 
  private:
-  Snapshot snapshot_;
+  ReadTransaction one_state_;
   int generations_;
 };
 
 RunReader::RunReader(const std::filesystem::path& run)
     : file_(record_of(run)), database_(std::make_unique<Database>(file_, Database::Mode::read)) {
-  Statement known(*database_, "SELECT count(*) FROM sqlite_master WHERE name = 'run'");
-  known.step();
-  std::string format;
-  if (known.integer(0) > 0) {
-    Statement select(*database_, "SELECT value FROM run WHERE key = 'format'");
-    if (select.step()) format = select.text(0);
-  }
-  if (format != record_format) {
-    throw InputError(
-        fmt::format("{}: format = \"{}\": expected \"{}\", the record of a run of this version",
-                    file_.string(), format, record_format));
-  }
+  require_format(*database_);
   integrity_ = std::make_unique<Integrity>(*database_);
 }
 
 RunReader::~RunReader() = default;
 
 void RunReader::verify() const {
-  const Snapshot snapshot(*database_);
+  const ReadTransaction one_state(*database_);
   integrity_->check_all();
 }
 
@@ -172,6 +161,11 @@ EvaluationWork RunReader::work() const {
 SearchHealth RunReader::health() const {
   const Reading reading(*this);
   return search_health(*database_, *integrity_);
+}
+
+RecordedMap RunReader::elites() const {
+  const Reading reading(*this);
+  return read_elites(*database_, *integrity_);
 }
 
 std::vector<std::string> RunReader::tables() const {

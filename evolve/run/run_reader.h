@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "evolve/experiment/experiment.h"
+#include "evolve/run/elite_table.h"
 #include "evolve/run/search_health.h"
 #include "metamorph/evaluator.h"
 #include "metamorph/genome.h"
@@ -64,6 +65,7 @@ class RunReader {
   /// Of all generations.
   EvaluationWork work() const;
   SearchHealth health() const;
+  RecordedMap elites() const;  ///< of a run of map-elites
 
   std::vector<std::string> tables() const;  ///< tables and views
   /// Visits all rows of a table or view, in no promised order. Precondition: it has these columns.

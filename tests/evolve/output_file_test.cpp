@@ -164,6 +164,25 @@ TEST_F(OutputFileTest, IsAsWholeUnderATemporaryName) {
   }
 }
 
+TEST_F(OutputFileTest, WhatAKilledWriterLeftCanBeRemoved) {
+  const auto result = in_child([&]() -> std::string {
+    if (!refuse_calls(SYS_openat, EOPNOTSUPP, nameless)) return "skip";
+    OutputFile killed(path("killed"), Overwrite::no);
+    ::kill(::getpid(), SIGKILL);
+    return "";
+  });
+  if (result.text == "skip") GTEST_SKIP() << "the kernel cannot be asked to refuse calls";
+  EXPECT_THAT(names(), ElementsAre(AllOf(StartsWith(".metamorph-"), EndsWith(".part"))));
+  // Of somebody who lives, and names that mean nothing.
+  const std::string living = ".metamorph-" + std::to_string(::getpid()) + "-0.part";
+  for (const std::string& name : {living, std::string(".metamorph-.part"), std::string("b.part")}) {
+    std::ofstream(path(name)) << "kept";
+  }
+  remove_abandoned(directory_.path());
+  EXPECT_THAT(names(), ElementsAre(".metamorph-.part", living, "b.part"));
+  remove_abandoned(path("none"));
+}
+
 TEST_F(OutputFileTest, EveryFaultIsOneLineAndLeavesNothing) {
   struct Case {
     const char* name;

@@ -262,6 +262,21 @@ TEST(Run, ResumingAFinishedRunChangesNothing) {
   EXPECT_EQ(contents(path), before);
 }
 
+// A run that may not go on is left as it was: not even a session is written.
+TEST(Run, ARefusalToGoOnIsNotRecorded) {
+  const TemporaryDirectory directory;
+  const auto path = directory.path() / "a";
+  run_whole(path, tiny_experiment("simple", 2));
+  const std::string before = tests::text_of(path / "run.db");
+  const auto refuse = [](Record& record) {
+    throw InputError(fmt::format("not after {}", record.generations_done()));
+  };
+  EXPECT_THAT(lines_of([&] { Record::resume(path, 1, refuse); }), ElementsAre("not after 2"));
+  EXPECT_TRUE(tests::text_of(path / "run.db") == before);
+  Record::resume(path, 1, [](Record&) {});
+  EXPECT_FALSE(tests::text_of(path / "run.db") == before);
+}
+
 TEST(Run, ChampionsReplayToTheRecordedBits) {
   const TemporaryDirectory directory;
   for (const std::string& kind : kinds) {

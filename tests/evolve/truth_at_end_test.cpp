@@ -76,6 +76,30 @@ TEST_F(TruthAtEnd, ALockThatIsGoneIsTold) {
   EXPECT_TRUE(lines.empty());
 }
 
+// What was half done for a generation is undone, and the record is closed as if it had not begun.
+TEST_F(TruthAtEnd, AGenerationThatCannotBeWrittenLeavesTheOnesBeforeWhole) {
+  Record record(path(), tiny_experiment("simple", 4), 1);
+  const auto change = [&](const char* sql) {
+    Database(path() / "run.db", Database::Mode::write).run(sql);
+  };
+  int generations = 0;
+  const auto refuse_third = [&] {
+    if (++generations == 3) {
+      change(
+          "CREATE TRIGGER refuse BEFORE INSERT ON session_digests BEGIN SELECT RAISE(ABORT, "
+          "'refused'); END");
+    }
+    return false;
+  };
+  EXPECT_THAT(lines_of([&] { run(record, {1, refuse_third, {}}); }),
+              ElementsAre(HasSubstr("refused")));
+  change("DROP TRIGGER refuse");
+  record.close();
+  const RunReader reader(path());
+  reader.verify();
+  EXPECT_EQ(reader.generations_done(), 2);
+}
+
 // Copied while it is written, without the log that stands beside it: an earlier state of the run,
 // with its experiment, and no word of deleting anything.
 TEST_F(TruthAtEnd, ACopyWithoutItsLogIsAnEarlierState) {
