@@ -2,6 +2,9 @@
 
 namespace metamorph::evolve {
 
+// What has to be told apart is told apart by those who lack a kind of cone, too
+// (tests/evolve/colour_vision_test.cpp).
+
 /// sRGB with opacity, each in [0, 1].
 struct Colour {
   double red = 0, green = 0, blue = 0, alpha = 1;
@@ -18,7 +21,7 @@ inline constexpr Colour ground{0.55, 0.52, 0.46};
 }  // namespace colours
 
 /// Of cells born in a stage of life, counted from 0: blue in the first, red in the metamorphosis to
-/// the second (figure 4), then ochre, green and violet, and again from red on.
+/// the second (figure 4), then yellow, green and violet, and again from red on.
 Colour birth_colour(int stage);
 
 /// (1 - t) a + t b in every channel; t in [0, 1].
@@ -28,7 +31,7 @@ Colour mix(const Colour& a, const Colour& b, double t);
 /// contracted, red expanded (figures 3, 6); saturated at 1 -+ `range`.
 Colour strain_colour(double area_ratio, double range = 0.4);
 
-/// Colour of a phase shift in radians (figure 9): cyclic, of even lightness.
+/// Colour of a phase shift in radians (figure 9): cyclic, lightest at 5/6 pi, darkest at -pi/6.
 Colour phase_colour(double phase);
 
 }  // namespace metamorph::evolve
