@@ -4,13 +4,14 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <numbers>
 
 namespace metamorph::evolve {
 
 Colour birth_colour(int stage) {
   constexpr Colour first{0.33, 0.58, 0.84};
   constexpr Colour later[] = {
-      {0.88, 0.38, 0.33}, {0.87, 0.66, 0.24}, {0.36, 0.67, 0.47}, {0.58, 0.45, 0.74}};
+      {0.88, 0.38, 0.33}, {0.99, 0.86, 0.30}, {0.03, 0.32, 0.00}, {0.37, 0.19, 0.73}};
   return stage <= 0 ? first : later[static_cast<std::size_t>(stage - 1) % std::size(later)];
 }
 
@@ -61,9 +62,12 @@ double srgb(double linear) {
 }  // namespace
 
 Colour phase_colour(double phase) {
-  // A circle of constant lightness and chroma in Oklab (Ottosson 2020), so that no phase stands
-  // out.
-  constexpr double lightness = 0.74, chroma = 0.125;
+  // A circle in Oklab (Ottosson 2020), tilted: one of even lightness would show those who lack a
+  // kind of cone the same colour twice, for they see lightness and one more axis only. It is
+  // highest half way between the axes of red and green and of yellow and blue, so that none loses
+  // both.
+  constexpr double middle = 0.70, tilt = 0.18, chroma = 0.11, lightest = std::numbers::pi * 5 / 6;
+  const double lightness = middle + tilt * std::cos(phase - lightest);
   const double a = chroma * std::cos(phase), b = chroma * std::sin(phase);
   const double l = std::pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
   const double m = std::pow(lightness - 0.1055613458 * a - 0.0638541728 * b, 3);

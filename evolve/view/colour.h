@@ -2,6 +2,9 @@
 
 namespace metamorph::evolve {
 
+// What has to be told apart is told apart by those who lack a kind of cone, too
+// (tests/evolve/colour_vision_test.cpp).
+
 /// sRGB with opacity, each in [0, 1].
 struct Colour {
   double red = 0, green = 0, blue = 0, alpha = 1;
@@ -19,7 +22,7 @@ inline constexpr Colour grid{0.90, 0.91, 0.92};  ///< lines behind curves
 }  // namespace colours
 
 /// Of cells born in a stage of life, counted from 0: blue in the first, red in the metamorphosis to
-/// the second (figure 4), then ochre, green and violet, and again from red on.
+/// the second (figure 4), then yellow, green and violet, and again from red on.
 Colour birth_colour(int stage);
 
 /// Colours that tell curves apart, also for the colour-blind (Okabe and Ito 2008; without black and
@@ -41,7 +44,7 @@ Colour sequential_colour(double t);
 /// Dark orange where something is touched, light grey elsewhere.
 Colour contact_colour(bool touches);
 
-/// Colour of a phase shift in radians (figure 9): cyclic, of even lightness.
+/// Colour of a phase shift in radians (figure 9): cyclic, lightest at 5/6 pi, darkest at -pi/6.
 Colour phase_colour(double phase);
 
 }  // namespace metamorph::evolve
