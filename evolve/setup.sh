@@ -49,7 +49,8 @@ clang-19             program:clang++-19
 libclang-rt-19-dev   program:clang++-19
 libomp-19-dev        program:clang++-19
 clang-format-19      program:clang-format-19
-doxygen              program:doxygen'
+doxygen              program:doxygen
+ffmpeg               program:ffmpeg'
 
 is_debian_12() {
   local ID='' VERSION_ID=''

@@ -127,33 +127,34 @@ void draw_ruler(Canvas& canvas, Point left, double scale) {
               colours::faint_ink, Align::centre);
 }
 
-void draw_scale(Canvas& canvas, double right, double base, const std::array<std::string, 3>& words,
-                const std::function<Colour(double)>& colour) {
+double draw_scale(Canvas& canvas, double right, double base,
+                  const std::array<std::string, 3>& words,
+                  const std::function<Colour(double)>& colour) {
   draw_strip(canvas, {right - strip_length, base}, words, text_size, colour);
+  return right - strip_length;
 }
 
-void draw_legend(Canvas& canvas, double right, double base, ColourKind kind, const Scales& scales) {
+/// Returns where it begins.
+double draw_legend(Canvas& canvas, double right, double base, ColourKind kind,
+                   const Scales& scales) {
   std::vector<Disc> discs;
   switch (kind) {
     case ColourKind::area:
-      draw_scale(canvas, right, base, {"contracted", "at rest", "expanded"},
-                 [](double t) { return strain_colour(0.6 + 0.8 * t); });
-      return;
+      return draw_scale(canvas, right, base, {"contracted", "at rest", "expanded"},
+                        [](double t) { return strain_colour(0.6 + 0.8 * t); });
     case ColourKind::phase:
-      draw_scale(canvas, right, base, {"\u2212\u03c0", "phase 0", "\u03c0"},
-                 [](double t) { return phase_colour(std::numbers::pi * (2 * t - 1)); });
-      return;
+      return draw_scale(canvas, right, base, {"\u2212\u03c0", "phase 0", "\u03c0"},
+                        [](double t) { return phase_colour(std::numbers::pi * (2 * t - 1)); });
     case ColourKind::period:
-      draw_scale(canvas, right, base,
-                 {fmt::format("{:.0f}", scales.shortest_period), "period, time units",
-                  fmt::format("{:.0f}", scales.longest_period)},
-                 sequential_colour);
-      return;
+      return draw_scale(canvas, right, base,
+                        {fmt::format("{:.0f}", scales.shortest_period), "period, time units",
+                         fmt::format("{:.0f}", scales.longest_period)},
+                        sequential_colour);
     case ColourKind::speed:
-      draw_scale(canvas, right, base,
-                 {"0", "speed, d per time unit", fmt::format("{:.2f}", scales.highest_speed)},
-                 sequential_colour);
-      return;
+      return draw_scale(
+          canvas, right, base,
+          {"0", "speed, d per time unit", fmt::format("{:.2f}", scales.highest_speed)},
+          sequential_colour);
     case ColourKind::birth:
       discs = birth_discs(scales.stages);
       break;
@@ -164,6 +165,7 @@ void draw_legend(Canvas& canvas, double right, double base, ColourKind kind, con
   double width = -20;
   for (const Disc& disc : discs) width += 18 + text_width(disc.words, text_size) + 20;
   draw_discs(canvas, {right - width, base}, discs, text_size);
+  return right - width;
 }
 
 /// What outlines beside the body are.
@@ -300,17 +302,21 @@ void FrameArtist::draw_foot(Canvas& canvas, double second) const {
   std::string words = fmt::format("{:.3g} time units per second", style_.speed);
   const std::string ghosts = ghosts_of(actors_);
   if (!ghosts.empty()) words += "; " + ghosts;
+  const double legend =
+      draw_legend(canvas, width_ - margin, base,
+                  shown_kind(moment_at(shots, second), style_.colour), life_style_.scales);
   const double left = margin + ruler_length(life_style_.scale) * life_style_.scale + 24;
-  draw_fitting(canvas, {left, base + 2}, words, text_size,
-               width_ - margin - strip_length - 40 - left, colours::faint_ink);
-  draw_legend(canvas, width_ - margin, base, shown_kind(moment_at(shots, second), style_.colour),
-              life_style_.scales);
+  const double room = legend - 24 - left;
+  // In a narrow frame the legend matters more.
+  if (text_width(words, least_size) <= room) {
+    draw_fitting(canvas, {left, base + 2}, words, text_size, room, colours::faint_ink);
+  }
   // The whole film as a line, with gaps where bodies are cut out.
-  const double room = width_ - 2 * margin, y = height_ - 9;
+  const double whole = width_ - 2 * margin, y = height_ - 9;
   double start = 0;
   for (const Shot& shot : shots) {
     const double end = start + shot.seconds;
-    const auto place = [&](double s) { return Point{margin + room * s / seconds_, y}; };
+    const auto place = [&](double s) { return Point{margin + whole * s / seconds_, y}; };
     if (shot.kind != Shot::Kind::cut) {
       canvas.stroke_line(std::array{place(start), place(end)}, Colour{0.87, 0.88, 0.90}, 4);
       if (second > start) {
