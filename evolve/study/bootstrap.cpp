@@ -5,15 +5,29 @@
 #include <numeric>
 #include <string>
 
-#include "evolve/run/median.h"
 #include "evolve/run/table_digest.h"
 #include "metamorph/random.h"
 
 namespace metamorph::evolve {
 
+namespace {
+
+/// The same of a sample whose order may be lost.
+double centre_within(std::span<double> sample, Centre centre) {
+  if (centre == Centre::mean) {
+    return std::accumulate(sample.begin(), sample.end(), 0.0) / static_cast<double>(sample.size());
+  }
+  const auto middle = sample.begin() + std::ssize(sample) / 2;
+  std::nth_element(sample.begin(), middle, sample.end());
+  if (sample.size() % 2 == 1) return *middle;
+  return 0.5 * (*std::max_element(sample.begin(), middle) + *middle);
+}
+
+}  // namespace
+
 double centre_of(std::span<const double> sample, Centre centre) {
-  if (centre == Centre::median) return median({sample.begin(), sample.end()});
-  return std::accumulate(sample.begin(), sample.end(), 0.0) / static_cast<double>(sample.size());
+  std::vector<double> copy(sample.begin(), sample.end());
+  return centre_within(copy, centre);
 }
 
 Bootstrap::Bootstrap(std::span<const std::uint64_t> seeds) : size_(seeds.size()) {
@@ -30,7 +44,7 @@ Interval Bootstrap::interval(std::span<const double> sample, Centre centre) cons
   centres.reserve(resamples);
   for (auto drawn = drawn_.begin(); drawn != drawn_.end();) {
     for (double& value : resample) value = sample[*drawn++];
-    centres.push_back(centre_of(resample, centre));
+    centres.push_back(centre_within(resample, centre));
   }
   const auto low = centres.begin() + beyond, high = centres.end() - 1 - beyond;
   std::nth_element(centres.begin(), low, centres.end());

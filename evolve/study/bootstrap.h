@@ -10,6 +10,7 @@ namespace metamorph::evolve {
 /// What a sample is told by.
 enum class Centre { mean, median };
 
+/// Precondition: not empty.
 double centre_of(std::span<const double> sample, Centre centre);
 
 struct Interval {

@@ -20,6 +20,7 @@ namespace metamorph::evolve {
 namespace {
 
 constexpr std::size_t most_settings = 3;  ///< that a label names
+constexpr double most = 1e100;            ///< no sound record has such a value
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// [path of a key] Its value: what makes runs one experiment.
@@ -70,8 +71,7 @@ std::vector<Run> open_runs(std::span<const std::filesystem::path> paths) {
   const auto key = [](const Run& run) {
     return std::tie(run.experiment.name, run.settings, run.experiment.seed);
   };
-  std::stable_sort(runs.begin(), runs.end(),
-                   [&](const Run& a, const Run& b) { return key(a) < key(b); });
+  std::sort(runs.begin(), runs.end(), [&](const Run& a, const Run& b) { return key(a) < key(b); });
   for (std::size_t i = 1; i < runs.size(); ++i) {
     if (key(runs[i - 1]) == key(runs[i])) {
       throw InputError(fmt::format(
@@ -158,7 +158,9 @@ Curve curve_of(const Group& group, const Measure& measure, std::size_t generatio
     for (std::size_t r = 0; r < group.runs.size(); ++r) {
       sample[r] = same_measure(group.runs[r]->measures, measure)->values[g];
     }
-    if (std::any_of(sample.begin(), sample.end(), [](double v) { return std::isnan(v); })) continue;
+    if (!std::all_of(sample.begin(), sample.end(), [](double v) { return std::abs(v) < most; })) {
+      continue;
+    }
     curve.measure.values[g] = centre_of(sample, centre);
     if (curve.low.empty()) continue;
     const auto [low, high] = bootstrap.interval(sample, centre);

@@ -55,8 +55,8 @@ Chart figure_of(const Study& study, const PlotKind& kind, Centre centre) {
   if (study.experiments.size() > 1) {
     for (std::size_t e = 0; e < study.experiments.size(); ++e) {
       const auto& [label, seeds] = study.experiments[e];
-      chart.keys.push_back(
-          {fmt::format("{} ({})", label, runs_text(seeds.size())), colour_of(e), is_dashed(e)});
+      chart.keys.push_back({fmt::format("{} ({})", label, runs_text(seeds.size())), colour_of(e),
+                            is_dashed(e), seeds.size() > 1});
     }
   }
   const Measure* last = nullptr;

@@ -24,7 +24,7 @@ double next_round(double step) {
 
 std::vector<double> Ticks::values() const {
   std::vector<double> result;
-  for (int i = first; i <= last; ++i) result.push_back(i * step);
+  for (double i = first; i <= last; ++i) result.push_back(i * step);
   return result;
 }
 
@@ -35,12 +35,15 @@ std::string Ticks::label(double value) const {
 }
 
 Ticks ticks_around(double low, double high, int most, bool whole) {
-  if (!(high > low)) high = low + (low == 0 ? 1 : std::abs(low));
+  // Less apart than numbers of this size can be divided: shown as one value.
+  if (high - low <= 1e-12 * std::max(std::abs(low), std::abs(high))) {
+    high = low + (low == 0 ? 1 : std::abs(low));
+  }
   double step = std::pow(10, std::floor(std::log10((high - low) / most)));
   if (whole) step = std::max(step, 1.0);
   for (;; step = next_round(step)) {
     const double first = std::floor(low / step + slack), last = std::ceil(high / step - slack);
-    if (last - first <= most) return {step, static_cast<int>(first), static_cast<int>(last)};
+    if (last - first <= most) return {step, first, last};
   }
 }
 

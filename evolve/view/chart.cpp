@@ -18,6 +18,7 @@ constexpr double line_height = 17, swatch = 24;
 constexpr double labels_left = 46, labels_below = 20, titles_above = 44;
 constexpr double curve_width = 1.5, axis_width = 0.8, grid_width = 0.7;
 constexpr double band_opacity = 0.16, edge_opacity = 0.5, edge_width = 0.5;
+constexpr double least_shown = 1e-100;
 constexpr double headroom = 0.02;  // of what is shown
 constexpr int marks_across = 6, marks_up = 6;
 
@@ -69,7 +70,7 @@ Scale scale_of(const ChartPanel& panel, const Frame& frame, double most_across) 
       }
     }
   }
-  if (low == high) high = 1;
+  if (high - low < least_shown) high = low + 1;
   return {frame, most_across, ticks_around(low, high, marks_up), high + headroom * (high - low)};
 }
 
@@ -168,11 +169,13 @@ std::vector<Point> places_of(const std::vector<ChartKey>& keys, double width) {
 
 void draw_key(Canvas& canvas, const ChartKey& key, Point at) {
   const double y = at.y - 4;
-  Colour band = key.colour;
-  band.alpha = band_opacity;
-  canvas.fill_polygon(std::array{Point{at.x, y - 5}, Point{at.x + swatch, y - 5},
-                                 Point{at.x + swatch, y + 5}, Point{at.x, y + 5}},
-                      band);
+  if (key.banded) {
+    Colour band = key.colour;
+    band.alpha = band_opacity;
+    const std::array outline{Point{at.x, y - 5}, Point{at.x + swatch, y - 5},
+                             Point{at.x + swatch, y + 5}, Point{at.x, y + 5}};
+    canvas.fill_polygon(outline, band);
+  }
   canvas.stroke_line(std::array{Point{at.x, y}, Point{at.x + swatch, y}}, key.colour, curve_width,
                      key.dashed);
   canvas.text({at.x + swatch + 7, at.y}, key.label, text_size, colours::ink);

@@ -7,7 +7,7 @@
 
 namespace metamorph::evolve {
 
-/// A line over whole numbers from 0, with a band around it.
+/// A line over whole numbers from 0, with a band around it. Values are below 1e100 in magnitude.
 struct ChartCurve {
   std::vector<double> values;     ///< NaN: a gap
   std::vector<double> low, high;  ///< as many, with gaps where values have them; empty: no band
@@ -26,6 +26,7 @@ struct ChartKey {
   std::string label;
   Colour colour;
   bool dashed = false;
+  bool banded = true;  ///< has a band
 };
 
 /// Panels in rows, with one horizontal axis for all.

@@ -4,6 +4,7 @@
 
 #include "evolve/run/record_schema.h"
 #include "evolve/run/run_reader.h"
+#include "evolve/study/figure.h"
 #include "tests/evolve/files.h"
 #include "tests/fuzz/contract.h"
 
@@ -42,6 +43,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   taken([&] { tables = run->tables(); });
   for (const std::string& table : tables) {
     taken([&] { run->write_csv(table, [](std::string_view) {}); });
+  }
+  for (const evolve::PlotKind& kind : evolve::plot_kinds()) {
+    taken([&] {
+      const evolve::Study study = evolve::study_of({&file, 1}, kind, evolve::Centre::mean, {});
+      const evolve::Chart chart = evolve::figure_of(study, kind, evolve::Centre::mean);
+      fuzz::require(!evolve::csv_of(study).empty() && !evolve::draw_chart(chart, "a.svg").empty(),
+                    "what is read is drawn");
+    });
   }
   return 0;
 }
