@@ -16,6 +16,7 @@ void add_export_command(CLI::App& app);
 void add_grow_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_render_command(CLI::App& app);
+void add_replay_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
 
 }  // namespace metamorph::evolve

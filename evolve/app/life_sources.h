@@ -22,9 +22,11 @@ struct LifeSources {
 /// SOURCE..., --generations, --every-generation, --experiment, --set, --scene.
 void add_life_sources(CLI::App& command, LifeSources& sources);
 
-/// The lives of all sources, in order, each with its heading. Throws InputError: a source that is
-/// no run, genome or body, a generation that is not there, an option that says nothing of a source.
-std::vector<Life> lives_of(const LifeSources& sources, const LifeOptions& options);
+/// Makes the lives of all sources, in order, each with its heading, and hands over each before the
+/// next is made. Throws InputError: a source that is no run, genome or body, a generation that is
+/// not there, an option that says nothing of a source.
+void each_life(const LifeSources& sources, const LifeOptions& options,
+               const std::function<void(Life)>& receive);
 
 /// True for a run's directory or its run.db.
 bool is_run(const std::string& source);

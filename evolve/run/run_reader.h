@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "evolve/experiment/experiment.h"
+#include "evolve/run/lineage.h"
 #include "evolve/run/search_health.h"
 #include "metamorph/evaluator.h"
 #include "metamorph/genome.h"
@@ -51,6 +52,8 @@ class RunReader {
   /// Of all generations.
   EvaluationWork work() const;
   SearchHealth health() const;
+  std::vector<GenerationFitness> fitness() const;
+  std::map<std::int64_t, Ancestor> ancestors(const std::vector<std::int64_t>& individuals) const;
 
   std::vector<std::string> tables() const;  ///< tables and views
   /// A table as CSV: a header line, then the rows in order of their key; numbers read back to the
