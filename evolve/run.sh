@@ -32,13 +32,17 @@ END
 "$metamorph" evolve evolve/experiments/water-to-land-simple.toml "${defaults[@]}" "$@" || exit
 [ -d "$out" ] || exit 0
 say "evolution took $(took $((SECONDS - start)))"
+page=$out/best.html
+"$metamorph" replay "$out" --out "$page" >/dev/null 2>&1 || page=
 say
+[ -n "$page" ] && say "Open $page in a browser: the best animat, from the egg to the adult."
 say "The run lies in $out: run.db is its record, best.png and best.svg show its best animat."
 say "What to do next:"
 say "  $metamorph info $out"
 say "  $metamorph render $out --kind motion --trial adult --out $out/motion.png"
 say "  $metamorph render $out --kind development --out $out/development.png"
 say "  $metamorph plot $out --kind fitness --out $out/fitness.png"
+say "  $metamorph replay $out --every-generation 5 --out $out/history.html"
 say "  $metamorph evolve --resume $out --generations 200"
 say "  bash evolve/run.sh        evolves again, with another seed"
 say "  $metamorph --help         lists all commands"

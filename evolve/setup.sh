@@ -37,13 +37,17 @@ libtomlplusplus-dev  header:toml++/toml.h
 nlohmann-json3-dev   header:nlohmann/json.hpp
 libsqlite3-dev       header:sqlite3.h
 libxxhash-dev        header:xxhash.h
-libcairo2-dev        header:cairo/cairo.h,cairo.h'
+libcairo2-dev        header:cairo/cairo.h,cairo.h
+zlib1g-dev           header:zlib.h'
 needs_of_tests='
 libgtest-dev         header:gtest/gtest.h
 libgmock-dev         header:gmock/gmock.h
 librapidcheck-dev    header:rapidcheck.h
 libbenchmark-dev     header:benchmark/benchmark.h
 python3              program:python3'
+# A browser opens the pages of `metamorph replay`.
+needs_of_pages='
+chromium             program:chromium,chromium-browser,google-chrome'
 needs_of_checks='
 clang-19             program:clang++-19
 libclang-rt-19-dev   program:clang++-19

@@ -133,6 +133,7 @@ thread_tier() {
 }
 
 need "$needs_of_program$needs_of_tests" || fail 'Cannot build without these.'
+[ "$mode" = quick ] || need "$needs_of_pages" || say 'Without a browser the pages are not opened.'
 [ $SECONDS -gt 2 ] && say "set-up took $(took $SECONDS)"
 
 release_tier

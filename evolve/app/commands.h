@@ -18,6 +18,7 @@ void add_grow_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_plot_command(CLI::App& app);
 void add_render_command(CLI::App& app);
+void add_replay_command(CLI::App& app);
 void add_simulate_command(CLI::App& app);
 
 }  // namespace metamorph::evolve

@@ -22,9 +22,9 @@ struct LifeSources {
 /// SOURCE..., --generations, --every-generation, --experiment, --set, --scene.
 void add_life_sources(CLI::App& command, LifeSources& sources);
 
-/// Hands over the lives of all sources, in order, each with its heading. Throws InputError: a
-/// source that is no run, genome or body, a generation that is not there, an option that says
-/// nothing of a source.
+/// Makes the lives of all sources, in order, each with its heading, and hands over each before the
+/// next is made. Throws InputError: a source that is no run, genome or body, a generation that is
+/// not there, an option that says nothing of a source.
 void each_life(const LifeSources& sources, const LifeOptions& options,
                const std::function<void(Life)>& receive);
 

@@ -24,9 +24,9 @@ using AddCommand = void (*)(CLI::App&);
 
 /// In the order of --help.
 const std::vector<AddCommand> add_commands = {
-    add_evolve_command, add_grow_command,   add_simulate_command,
-    add_info_command,   add_export_command, add_render_command,
-    add_film_command,   add_plot_command,   add_audit_command,
+    add_evolve_command, add_grow_command,   add_simulate_command, add_info_command,
+    add_export_command, add_render_command, add_film_command,     add_replay_command,
+    add_plot_command,   add_audit_command,
 };
 
 /// The line of a command-line fault: which command, what, and where to read on.

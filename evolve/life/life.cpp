@@ -103,6 +103,8 @@ void move(std::vector<core::Body> starts, const core::Scene& scene,
 Life life_of(const Experiment& experiment, const Genome& genome, int generation,
              const LifeOptions& options) {
   Life life;
+  life.genome = genome;
+  life.generation = generation;
   life.end = experiment.stages().back();
   life.starts = experiment.metamorphoses();
   std::vector<int> steps(static_cast<std::size_t>(life.end) + 1);

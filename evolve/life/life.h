@@ -42,6 +42,8 @@ struct Motion {
 /// What can be seen of an animat: from the egg to its last stage, and how it moves in each.
 struct Life {
   std::string heading;
+  std::optional<Genome> genome;       ///< none: a body by itself
+  int generation = 0;                 ///< whose starts are shown
   int end = 0;                        ///< development steps; 0: a body by itself
   std::vector<core::Embryo> embryos;  ///< at every development step from 0 to `end`
   std::vector<int> starts;            ///< the steps at which stages after the first begin

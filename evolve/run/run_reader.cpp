@@ -168,6 +168,19 @@ RecordedMap RunReader::elites() const {
   return read_elites(*database_, *integrity_);
 }
 
+std::vector<GenerationFitness> RunReader::fitness() const {
+  const Reading reading(*this);
+  integrity_->check_table("generations");
+  return fitness_of(*database_);
+}
+
+std::map<std::int64_t, Ancestor> RunReader::ancestors(
+    const std::vector<std::int64_t>& individuals) const {
+  const Reading reading(*this);
+  integrity_->check_table("individuals");
+  return ancestors_of(*database_, individuals);
+}
+
 std::vector<std::string> RunReader::tables() const {
   const Reading reading(*this);
   Statement select(*database_,

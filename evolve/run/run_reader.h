@@ -11,6 +11,7 @@
 
 #include "evolve/experiment/experiment.h"
 #include "evolve/run/elite_table.h"
+#include "evolve/run/lineage.h"
 #include "evolve/run/search_health.h"
 #include "metamorph/evaluator.h"
 #include "metamorph/genome.h"
@@ -66,6 +67,8 @@ class RunReader {
   EvaluationWork work() const;
   SearchHealth health() const;
   RecordedMap elites() const;  ///< of a run of map-elites
+  std::vector<GenerationFitness> fitness() const;
+  std::map<std::int64_t, Ancestor> ancestors(const std::vector<std::int64_t>& individuals) const;
 
   std::vector<std::string> tables() const;  ///< tables and views
   /// Visits all rows of a table or view, in no promised order. Precondition: it has these columns.
