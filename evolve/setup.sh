@@ -37,7 +37,9 @@ libtomlplusplus-dev  header:toml++/toml.h
 nlohmann-json3-dev   header:nlohmann/json.hpp
 libsqlite3-dev       header:sqlite3.h
 libxxhash-dev        header:xxhash.h
-libcairo2-dev        header:cairo/cairo.h,cairo.h'
+libcairo2-dev        header:cairo/cairo.h,cairo.h
+libpng-dev           header:png.h
+libimagequant-dev    header:libimagequant.h'
 needs_of_tests='
 libgtest-dev         header:gtest/gtest.h
 libgmock-dev         header:gmock/gmock.h

@@ -51,7 +51,7 @@ bool is_framed(Database& database);
 
 /// Whether a record is what was written. All faults throw InputError with one line that names the
 /// file, the table and where known the generation. Precondition of every call: the database shows
-/// one state meanwhile (Snapshot, or nobody else writes).
+/// one state meanwhile (ReadTransaction, or nobody else writes).
 class Integrity {
  public:
   explicit Integrity(Database& database) : database_(database) {}

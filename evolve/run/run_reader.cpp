@@ -40,7 +40,7 @@ class RunReader::Reading {
   int generations() const { return generations_; }
 
  private:
-  Snapshot snapshot_;
+  ReadTransaction snapshot_;
   int generations_;
 };
 
@@ -64,7 +64,7 @@ RunReader::RunReader(const std::filesystem::path& run)
 RunReader::~RunReader() = default;
 
 void RunReader::verify() const {
-  const Snapshot snapshot(*database_);
+  const ReadTransaction snapshot(*database_);
   integrity_->check_all();
 }
 

@@ -223,12 +223,12 @@ std::span<const std::uint8_t> Statement::blob(int column) const {
   return {data, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))};
 }
 
-Snapshot::Snapshot(Database& database)
+ReadTransaction::ReadTransaction(Database& database)
     : database_(database), open_(sqlite3_get_autocommit(database.handle()) != 0) {
   if (open_) database_.run("BEGIN");
 }
 
-Snapshot::~Snapshot() {
+ReadTransaction::~ReadTransaction() {
   if (open_) sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
 }
 

@@ -90,12 +90,12 @@ class Database {
 
 /// As long as it lives, the database shows one state, whatever others write. In another one it does
 /// nothing.
-class Snapshot {
+class ReadTransaction {
  public:
-  explicit Snapshot(Database& database);
-  ~Snapshot();
-  Snapshot(const Snapshot&) = delete;
-  Snapshot& operator=(const Snapshot&) = delete;
+  explicit ReadTransaction(Database& database);
+  ~ReadTransaction();
+  ReadTransaction(const ReadTransaction&) = delete;
+  ReadTransaction& operator=(const ReadTransaction&) = delete;
 
  private:
   Database& database_;
