@@ -38,7 +38,9 @@ nlohmann-json3-dev   header:nlohmann/json.hpp
 libsqlite3-dev       header:sqlite3.h
 libxxhash-dev        header:xxhash.h
 libcairo2-dev        header:cairo/cairo.h,cairo.h
-zlib1g-dev           header:zlib.h'
+zlib1g-dev           header:zlib.h
+libpng-dev           header:png.h
+libimagequant-dev    header:libimagequant.h'
 needs_of_tests='
 libgtest-dev         header:gtest/gtest.h
 libgmock-dev         header:gmock/gmock.h

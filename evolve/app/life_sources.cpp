@@ -1,86 +1,43 @@
 #include "evolve/app/life_sources.h"
 
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <utility>
+#include <string>
+#include <vector>
 
 #include "evolve/app/options.h"
-#include "evolve/files/animat_file.h"
+#include "evolve/app/subject.h"
 #include "evolve/files/body_file.h"
-#include "evolve/files/genome_file.h"
-#include "evolve/files/input_error.h"
-#include "evolve/files/printable.h"
 #include "evolve/run/run_reader.h"
 
 namespace metamorph::evolve {
 namespace {
 
-/// An option that says nothing about such a source.
-void refuse(bool is_given, const char* option, const std::string& why) {
-  if (is_given) throw InputError(fmt::format("{}: {}", option, why));
-}
-
-void refuse_generations(const LifeSources& sources, const std::string& what) {
-  const std::string why = "expected a run, not a " + what;
-  refuse(!sources.generations.empty(), "--generations", why);
-  refuse(sources.every > 0, "--every-generation", why);
-}
-
-Life life_of_champion(const Experiment& experiment, const Champion& champion,
-                      const LifeOptions& options) {
-  Life life = life_of(experiment, champion.genome, champion.generation, options);
-  life.heading = fmt::format("{}, seed {}: best of generation {}, {:.3f} d (eq 6)", experiment.name,
-                             experiment.seed, champion.generation, champion.eq6);
+Life life_of_subject(const Subject& subject, const LifeOptions& options) {
+  Life life = life_of(subject.experiment, subject.genome, subject.generation, options);
+  life.heading = subject.heading;
   return life;
 }
 
-void each_life_of_run(const std::string& source, const LifeSources& sources,
-                      const LifeOptions& options, const std::function<void(Life)>& receive) {
-  const std::string why = "not together with a run, which is shown by its own rules";
-  refuse(!sources.rules.experiment.empty(), "--experiment", why);
-  refuse(!sources.rules.set.empty(), "--set", why);
-  refuse(!sources.rules.scene.empty(), "--scene", why);
-  const RunReader run(source);
-  const int done = run.generations_done();
-  if (done == 0) throw InputError(source + ": no generation is done yet");
-  const Experiment experiment = run.experiment();
+Life life_of_body(const std::string& file, const RulesOptions& rules, const LifeOptions& options) {
+  const Experiment experiment = experiment_of(rules);
+  Life life = life_of(read_body(file), scene_of(experiment, rules),
+                      locomotion_of(experiment, options.threads), options);
+  life.heading = stem_of(file);
+  return life;
+}
+
+/// Those named, or every n-th and the last one; -1: the best of all.
+std::vector<int> generations_of(const RunReader& run, const LifeSources& sources) {
   std::vector<int> generations = sources.generations;
   if (sources.every > 0) {
-    for (int g = 0; g < done; g += sources.every) generations.push_back(g);
-    if (generations.back() != done - 1) generations.push_back(done - 1);
+    const int done = run.generations_done();
+    for (int g = 0; g < done - 1; g += sources.every) generations.push_back(g);
+    generations.push_back(done - 1);
   }
-  if (generations.empty()) receive(life_of_champion(experiment, run.best(), options));
-  for (const int generation : generations) {
-    receive(life_of_champion(experiment, run.champion(generation), options));
-  }
-}
-
-Life life_of_file(const std::string& source, const LifeSources& sources,
-                  const LifeOptions& options) {
-  const Experiment experiment = experiment_of(sources.rules);
-  const std::filesystem::path file(source);
-  Life life;
-  if (format_of(file) == body_format) {
-    refuse_generations(sources, "body");
-    const core::Scene scene = scene_of(experiment, sources.rules);
-    life = life_of(read_body(source), scene, locomotion_of(experiment, options.threads), options);
-  } else {
-    refuse_generations(sources, "genome");
-    refuse(!sources.rules.scene.empty(), "--scene",
-           "expected a body: a genome moves in the scenes of its trials");
-    life = life_of(experiment, read_genome(source, experiment.development), 0, options);
-  }
-  life.heading = printable(file.stem().string());
-  return life;
+  if (generations.empty()) generations.push_back(-1);
+  return generations;
 }
 
 }  // namespace
-
-bool is_run(const std::string& source) {
-  const std::filesystem::path path(source);
-  return std::filesystem::is_directory(path) || path.extension() == ".db";
-}
 
 void add_life_sources(CLI::App& command, LifeSources& sources) {
   command
@@ -110,11 +67,21 @@ void add_life_sources(CLI::App& command, LifeSources& sources) {
 
 void each_life(const LifeSources& sources, const LifeOptions& options,
                const std::function<void(Life)>& receive) {
+  const std::string given = !sources.generations.empty() ? "--generations"
+                            : sources.every > 0          ? "--every-generation"
+                                                         : "";
   for (const std::string& source : sources.sources) {
-    if (is_run(source)) {
-      each_life_of_run(source, sources, options, receive);
+    const SourceKind kind = kind_of(source);
+    check_options(kind, sources.rules, given);
+    if (kind == SourceKind::body) {
+      receive(life_of_body(source, sources.rules, options));
+    } else if (kind == SourceKind::genome) {
+      receive(life_of_subject(subject_of_genome(source, sources.rules), options));
     } else {
-      receive(life_of_file(source, sources, options));
+      const RunReader run(source);
+      for (const int generation : generations_of(run, sources)) {
+        receive(life_of_subject(subject_of_run(run, generation), options));
+      }
     }
   }
 }

@@ -28,7 +28,4 @@ void add_life_sources(CLI::App& command, LifeSources& sources);
 void each_life(const LifeSources& sources, const LifeOptions& options,
                const std::function<void(Life)>& receive);
 
-/// True for a run's directory or its run.db.
-bool is_run(const std::string& source);
-
 }  // namespace metamorph::evolve

@@ -1,24 +1,21 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "evolve/app/commands.h"
-#include "evolve/app/life_sources.h"
 #include "evolve/app/options.h"
 #include "evolve/app/rules_options.h"
-#include "evolve/files/animat_file.h"
+#include "evolve/app/subject.h"
+#include "evolve/app/zoo.h"
 #include "evolve/files/body_file.h"
-#include "evolve/files/genome_file.h"
 #include "evolve/files/input_error.h"
 #include "evolve/files/output_file.h"
 #include "evolve/files/printable.h"
 #include "evolve/run/pictures.h"
-#include "evolve/run/run_reader.h"
 #include "evolve/view/motion.h"
 #include "metamorph/extraction.h"
 
@@ -26,53 +23,22 @@ namespace metamorph::evolve {
 namespace {
 
 struct RenderOptions {
-  std::string source;
+  std::vector<std::string> sources;
   std::string out;
   std::string kind = "animat";
   RulesOptions rules;
-  int generation = -1;  ///< of a run; -1: the best of all
+  int generation = -1;           ///< of a run; -1: the best of all
+  std::vector<int> generations;  ///< of zoo and history; empty: `count`, evenly spread
+  int count = 0;                 ///< 0: was not given
+  int columns = 0;               ///< 0: was not given
+  std::string colours;           ///< of zoo; empty: was not given
   int snapshots = 8;
   std::vector<int> at;  ///< empty: six steps
+  double density = 2;
   bool overwrite = false;
+
+  const std::string& source() const { return sources.front(); }
 };
-
-/// A genome and the experiment it is shown in.
-struct Subject {
-  Experiment experiment;
-  Genome genome;
-  std::string heading;
-  int generation = 0;  ///< whose starts the outcomes shown are of
-};
-
-Subject subject_of_run(const RenderOptions& options) {
-  const RunReader run(options.source);
-  if (run.generations_done() == 0) throw InputError(options.source + ": no generation is done yet");
-  Subject subject{run.experiment(), {}, ""};
-  const Champion champion = options.generation >= 0 ? run.champion(options.generation) : run.best();
-  subject.genome = champion.genome;
-  subject.generation = champion.generation;
-  subject.heading =
-      fmt::format("{}, seed {}: best of generation {}, {:.3f} d (eq 6)", subject.experiment.name,
-                  subject.experiment.seed, champion.generation, champion.eq6);
-  return subject;
-}
-
-/// The name of a file as a heading.
-std::string stem_of(const std::string& file) {
-  return printable(std::filesystem::path(file).stem().string());
-}
-
-Subject subject_of_genome(const RenderOptions& options) {
-  Experiment experiment = experiment_of(options.rules);
-  Genome genome = read_genome(options.source, experiment.development);
-  return {std::move(experiment), std::move(genome), stem_of(options.source)};
-}
-
-std::vector<core::Outcome> outcomes_of(const Subject& subject) {
-  return Evaluator(rules_of(subject.experiment), 1)
-      .evaluate_fully(networks_of(subject.experiment, subject.genome), subject.generation)
-      .trials;
-}
 
 std::vector<core::Embryo> embryos_of(const Subject& subject, const std::vector<int>& steps) {
   return embryos_of(subject.experiment, subject.genome, steps);
@@ -109,7 +75,7 @@ Sheet motion_of(const Subject& subject, const RenderOptions& options) {
   const core::Extraction extraction = core::extract_body(embryo, subject.experiment.min_cells);
   if (extraction.status != core::Status::ok) {
     throw InputError(
-        fmt::format("{}: the {} has no body that could move", options.source, trial.name));
+        fmt::format("{}: the {} has no body that could move", options.source(), trial.name));
   }
   Sheet sheet = motion_of_body(extraction.body, subject.experiment.scene_of(trial),
                                locomotion_of(subject.experiment), options.snapshots);
@@ -144,7 +110,7 @@ Sheet sheet_of(const Subject& subject, const RenderOptions& options) {
 
 Sheet sheet_of_body(const RenderOptions& options) {
   const Experiment experiment = experiment_of(options.rules);
-  const core::Body body = read_body(options.source);
+  const core::Body body = read_body(options.source());
   Sheet sheet;
   if (options.kind == "development") {
     throw InputError("--kind: development: expected animat, motion or phase for a body");
@@ -161,17 +127,50 @@ Sheet sheet_of_body(const RenderOptions& options) {
     sheet.remark = fmt::format("{} nodes, {} springs, {} triangles", body.node_count(),
                                body.springs.size(), body.triangles.size());
   }
-  sheet.heading = stem_of(options.source);
+  sheet.heading = stem_of(options.source());
   return sheet;
 }
 
-/// Options that say nothing about such a source; each gets its line.
-void refuse(const std::vector<std::pair<const char*, bool>>& options, const std::string& why) {
-  std::vector<std::string> faults;
-  for (const auto& [name, is_given] : options) {
-    if (is_given) faults.push_back(fmt::format("{}: {}", name, why));
+Sheet sheet_of_one(const RenderOptions& options) {
+  if (options.sources.size() > 1) {
+    throw InputError(fmt::format("SOURCE: {} of them: expected one for --kind {} (zoo shows many)",
+                                 options.sources.size(), options.kind));
   }
-  if (!faults.empty()) throw InputError(faults);
+  for (const auto& [name, is_given] :
+       {std::pair{"--generations", !options.generations.empty()},
+        std::pair{"--count", options.count > 0}, std::pair{"--columns", options.columns > 0},
+        std::pair{"--colours", !options.colours.empty()}}) {
+    if (is_given) {
+      throw InputError(
+          fmt::format("{}: not of --kind {}: expected zoo or history", name, options.kind));
+    }
+  }
+  const SourceKind kind = kind_of(options.source());
+  check_options(kind, options.rules, options.generation >= 0 ? "--generation" : "");
+  if (kind == SourceKind::body) return sheet_of_body(options);
+  return sheet_of(kind == SourceKind::run
+                      ? subject_of_run(RunReader(options.source()), options.generation)
+                      : subject_of_genome(options.source(), options.rules),
+                  options);
+}
+
+Sheet sheet_of_many(const RenderOptions& options) {
+  ZooOptions zoo;
+  zoo.sources = options.sources;
+  zoo.rules = options.rules;
+  zoo.generation = options.generation;
+  zoo.generations = options.generations;
+  if (options.count > 0) zoo.count = options.count;
+  if (options.columns > 0) zoo.style.columns = options.columns;
+  const bool is_history = options.kind == "history";
+  const bool shows_phase = options.colours.empty() ? is_history : options.colours == "phase";
+  zoo.style.colours = shows_phase ? CellColours::phase : CellColours::birth;
+  if (!is_history) return zoo_of(zoo);
+  if (options.generation >= 0) {
+    throw InputError("--generation: not of --kind history: expected --generations");
+  }
+  zoo.style.moving = false;
+  return history_of(zoo);
 }
 
 void render(const RenderOptions& options) {
@@ -180,23 +179,9 @@ void render(const RenderOptions& options) {
   }
   const Overwrite overwrite = options.overwrite ? Overwrite::yes : Overwrite::no;
   check_writable(options.out, overwrite);
-  Sheet sheet;
-  const RulesOptions& rules = options.rules;
-  if (is_run(options.source)) {
-    refuse({{"--experiment", !rules.experiment.empty()},
-            {"--set", !rules.set.empty()},
-            {"--scene", !rules.scene.empty()}},
-           "not together with a run, which is shown by its own rules");
-    sheet = sheet_of(subject_of_run(options), options);
-  } else if (format_of(std::filesystem::path(options.source)) == body_format) {
-    refuse({{"--generation", options.generation >= 0}}, "expected a run, not a body");
-    sheet = sheet_of_body(options);
-  } else {
-    refuse({{"--generation", options.generation >= 0}}, "expected a run, not a genome");
-    refuse({{"--scene", !rules.scene.empty()}},
-           "expected a body: a genome moves in the scene of its trial (--trial)");
-    sheet = sheet_of(subject_of_genome(options), options);
-  }
+  const bool shows_many = options.kind == "zoo" || options.kind == "history";
+  Sheet sheet = shows_many ? sheet_of_many(options) : sheet_of_one(options);
+  sheet.density = options.density;
   write_sheet(sheet, options.out, overwrite);
   fmt::print("{}\n", printable(options.out));
 }
@@ -206,25 +191,48 @@ void render(const RenderOptions& options) {
 void add_render_command(CLI::App& app) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App* command =
-      app.add_subcommand("render", "Draws a run's champion, a genome or a body as SVG, PNG or PDF");
+      app.add_subcommand("render", "Draws champions of runs, genomes or bodies as SVG, PNG or PDF");
   command
-      ->add_option("SOURCE", options->source,
-                   "Directory of a run or its run.db, a genome file, or a body file")
+      ->add_option("SOURCE", options->sources,
+                   "Directory of a run or its run.db, a genome file, or a body file; several of "
+                   "them with --kind zoo")
       ->required()
-      ->option_text("RUN|GENOME.json|BODY.json");
+      ->option_text("RUN|GENOME.json|BODY.json...");
   command->add_option("--out", options->out, "The picture; its ending says which kind of file")
       ->required()
       ->option_text("FILE.svg|.png|.pdf");
   command
-      ->add_option("--kind", options->kind,
-                   "animat: embryos and bodies of all stages (figures 4, 5); development: a row of "
-                   "steps (figures 4, 8); motion: one cycle (figures 3, 6), from the body as it is "
-                   "also where a trial displaces it; phase: phase shifts (figure 9)")
-      ->check(one_of({"animat", "development", "motion", "phase"}))
+      ->add_option(
+          "--kind", options->kind,
+          "animat: embryos and bodies of all stages (figures 4, 5); development: a row of "
+          "steps (figures 4, 8); motion: one cycle (figures 3, 6), from the body as it is "
+          "also where a trial displaces it; phase: phase shifts (figure 9); zoo: many animats "
+          "and where they move (figures 5, 7), those of several sources, or the best of "
+          "some generations of a run; history: phase shifts of these (figure 19)")
+      ->check(one_of({"animat", "development", "motion", "phase", "zoo", "history"}))
       ->option_text("KIND [animat]");
   command->add_option("--generation", options->generation, "Of a run: the best of this generation")
       ->check(integer_from(0, 100000000))
       ->option_text("N [best of all]");
+  command
+      ->add_option("--generations", options->generations,
+                   "Of zoo or history, and one run: the best of these, separated by commas")
+      ->delimiter(',')
+      ->option_text("N,...");
+  command
+      ->add_option("--count", options->count,
+                   "Of the same: so many generations, evenly spread, if none are named")
+      ->check(integer_from(1, most_animats))
+      ->option_text("N [8]");
+  command->add_option("--columns", options->columns, "Of zoo or history: animats in a row, at most")
+      ->check(integer_from(1, most_animats))
+      ->option_text("N [8]");
+  command
+      ->add_option("--colours", options->colours,
+                   "Of zoo or history: what colours tell, the stage in which a cell was born or "
+                   "its phase shift")
+      ->check(one_of({"birth", "phase"}))
+      ->option_text("birth|phase [birth; history: phase]");
   add_rules_options(*command, options->rules);
   add_trial_options(*command, options->rules);
   command->add_option("--at", options->at, "Of development: steps, separated by commas")
@@ -233,6 +241,11 @@ void add_render_command(CLI::App& app) {
   command->add_option("--snapshots", options->snapshots, "Of motion: how many")
       ->check(integer_from(1, 64))
       ->option_text("N [8]");
+  command
+      ->add_option("--density", options->density,
+                   "Of a PNG: pixels per unit of the page, which is about 1000 units wide")
+      ->check(number_from(0.25, 8))
+      ->option_text("X [2]");
   command->add_flag("--overwrite", options->overwrite, "Replace a file that exists");
   command->callback([options] { render(*options); });
 }

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 
-#include "evolve/view/draw.h"
 #include "metamorph/extraction.h"
 
 namespace metamorph::evolve {
 
-Sheet individual_sheet(const Experiment& experiment, const Genome& genome,
-                       std::span<const core::Outcome> trials, const std::string& heading) {
+std::vector<Stage> stages_of(const Experiment& experiment, const Genome& genome,
+                             std::span<const core::Outcome> trials) {
   const std::vector<int> steps = experiment.stages();
   const std::vector<core::Embryo> embryos = embryos_of(experiment, genome, steps);
   std::vector<Stage> stages;
@@ -26,6 +25,12 @@ Sheet individual_sheet(const Experiment& experiment, const Genome& genome,
     stage.ground = core::shows_ground(experiment.scene_of(trial));
     stages.push_back(std::move(stage));
   }
+  return stages;
+}
+
+Sheet individual_sheet(const Experiment& experiment, const Genome& genome,
+                       std::span<const core::Outcome> trials, const std::string& heading) {
+  const std::vector<Stage> stages = stages_of(experiment, genome, trials);
   Sheet sheet = champion_sheet(stages, experiment.metamorphoses());
   sheet.heading = heading;
   return sheet;

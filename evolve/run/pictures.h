@@ -1,13 +1,19 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "evolve/run/reporter.h"
-#include "evolve/view/sheet.h"
+#include "evolve/view/draw.h"
 
 namespace metamorph::evolve {
+
+/// The stages of an individual, one for each trial. `trials` are its outcomes, as recorded.
+std::vector<Stage> stages_of(const Experiment& experiment, const Genome& genome,
+                             std::span<const core::Outcome> trials);
 
 /// The picture of one individual: the embryo and body of every trial with its distance (figure 5).
 /// `trials` are its outcomes, as recorded.

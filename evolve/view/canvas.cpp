@@ -6,14 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
 
+#include "evolve/view/palette_png.h"
+
 namespace metamorph::evolve {
 namespace {
 
-constexpr double png_density = 2;  // pixels per layout pixel
 constexpr const char* font = "DejaVu Sans";
 
 using SurfacePointer = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
@@ -36,7 +38,8 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned int lengt
   return CAIRO_STATUS_SUCCESS;
 }
 
-SurfacePointer create(const std::string& file, std::string& bytes, double width, double height) {
+SurfacePointer create(const std::string& file, std::string& bytes, double width, double height,
+                      double density) {
   cairo_surface_t* surface = nullptr;
   if (file.ends_with(".svg")) {
     surface = cairo_svg_surface_create_for_stream(append, &bytes, width, height);
@@ -44,9 +47,9 @@ SurfacePointer create(const std::string& file, std::string& bytes, double width,
     surface = cairo_pdf_surface_create_for_stream(append, &bytes, width, height);
   } else if (file.ends_with(".png")) {
     surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24,
-                                         static_cast<int>(std::lround(width * png_density)),
-                                         static_cast<int>(std::lround(height * png_density)));
-    cairo_surface_set_device_scale(surface, png_density, png_density);
+                                         static_cast<int>(std::lround(width * density)),
+                                         static_cast<int>(std::lround(height * density)));
+    cairo_surface_set_device_scale(surface, density, density);
   } else {
     throw std::runtime_error(file + ": a picture's name ends in .svg, .png or .pdf");
   }
@@ -67,9 +70,9 @@ struct Canvas::Surface {
   SurfacePointer surface;
   ContextPointer context;
 
-  Surface(const std::string& name, double width, double height)
+  Surface(const std::string& name, double width, double height, double density)
       : file(name),
-        surface(create(name, bytes, width, height)),
+        surface(create(name, bytes, width, height, density)),
         context(cairo_create(surface.get()), cairo_destroy) {
     check(cairo_surface_status(surface.get()));
   }
@@ -95,6 +98,18 @@ struct Canvas::Surface {
     if (start != std::string::npos && end != std::string::npos) {
       bytes.replace(start, end - start, "id=\"picture");
     }
+  }
+
+  void write_png() {
+    cairo_surface_flush(surface.get());
+    const int width = cairo_image_surface_get_width(surface.get());
+    const int height = cairo_image_surface_get_height(surface.get());
+    // Cairo's rows of RGB24 are as wide as the picture: four bytes of every pixel.
+    const auto* pixels =
+        reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(surface.get()));
+    bytes =
+        palette_png({pixels, static_cast<std::size_t>(width) * static_cast<std::size_t>(height)},
+                    width, height);
   }
 
   cairo_t* cairo() const { return context.get(); }
@@ -126,8 +141,8 @@ struct Canvas::Surface {
   }
 };
 
-Canvas::Canvas(const std::string& file, double width, double height)
-    : surface_(std::make_unique<Surface>(file, width, height)) {
+Canvas::Canvas(const std::string& file, double width, double height, double density)
+    : surface_(std::make_unique<Surface>(file, width, height, density)) {
   surface_->prepare();
 }
 
@@ -161,13 +176,20 @@ void Canvas::fill_polygon(std::span<const Point> points, const Colour& colour) {
   cairo_fill(surface_->cairo());
 }
 
-void Canvas::fill_tile(std::span<const Point> points, const Colour& colour) {
+void Canvas::fill_tiles(std::span<const std::vector<Point>> tiles, const Colour& colour) {
+  cairo_t* cairo = surface_->cairo();
   surface_->use(colour);
-  surface_->path(points);
-  cairo_close_path(surface_->cairo());
-  cairo_fill_preserve(surface_->cairo());
-  cairo_set_line_width(surface_->cairo(), 0.03);
-  cairo_stroke(surface_->cairo());
+  cairo_new_path(cairo);
+  for (const std::vector<Point>& tile : tiles) {
+    cairo_new_sub_path(cairo);
+    for (const Point& p : tile) cairo_line_to(cairo, p.x, p.y);
+    cairo_close_path(cairo);
+  }
+  cairo_fill_preserve(cairo);
+  cairo_matrix_t matrix;
+  cairo_get_matrix(cairo, &matrix);
+  cairo_set_line_width(cairo, std::max(0.03, 0.7 / std::hypot(matrix.xx, matrix.yx)));
+  cairo_stroke(cairo);
 }
 
 void Canvas::stroke_line(std::span<const Point> points, const Colour& colour, double width,
@@ -180,6 +202,19 @@ void Canvas::stroke_line(std::span<const Point> points, const Colour& colour, do
   cairo_set_line_width(cairo, width);
   cairo_stroke(cairo);
   cairo_set_dash(cairo, nullptr, 0, 0);
+}
+
+void Canvas::stroke_lines(std::span<const std::array<Point, 2>> lines, const Colour& colour,
+                          double width) {
+  cairo_t* cairo = surface_->cairo();
+  surface_->use(colour);
+  cairo_new_path(cairo);
+  for (const auto& [from, to] : lines) {
+    cairo_move_to(cairo, from.x, from.y);
+    cairo_line_to(cairo, to.x, to.y);
+  }
+  cairo_set_line_width(cairo, width);
+  cairo_stroke(cairo);
 }
 
 void Canvas::fill_circle(Point centre, double radius, const Colour& colour) {
@@ -211,10 +246,7 @@ void Canvas::text(Point at, const std::string& words, double size, const Colour&
 
 std::string Canvas::finish() {
   surface_->check(cairo_status(surface_->cairo()));
-  if (surface_->file.ends_with(".png")) {
-    surface_->check(
-        cairo_surface_write_to_png_stream(surface_->surface.get(), append, &surface_->bytes));
-  }
+  if (surface_->file.ends_with(".png")) surface_->write_png();
   if (surface_->file == "frame") surface_->take_pixels();
   cairo_surface_finish(surface_->surface.get());
   surface_->check(cairo_surface_status(surface_->surface.get()));

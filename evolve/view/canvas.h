@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "evolve/view/colour.h"
 
@@ -16,12 +18,12 @@ enum class Align { left, centre, right };
 
 /// A picture being drawn. Coordinates are layout pixels with y down until look_at() maps a
 /// part of the picture to lengths in d with y up; line widths and radii follow the same unit.
-/// What it becomes is decided by the name of its file: .svg, .png (two pixels per layout pixel) or
-/// .pdf.
+/// What it becomes is decided by the name of its file: .svg, .png or .pdf.
 class Canvas {
  public:
-  /// Throws std::runtime_error for another ending or if it is too large to be drawn.
-  Canvas(const std::string& file, double width, double height);
+  /// `density`: pixels of a PNG per layout pixel. Throws std::runtime_error for another ending or
+  /// if it is too large to be drawn.
+  Canvas(const std::string& file, double width, double height, double density = 2);
   /// A frame of a film: `width` by `height` pixels, `density` of them per layout pixel, that
   /// finish() gives as PNG or as they are.
   enum class Frame { png, pixels };
@@ -40,10 +42,13 @@ class Canvas {
   void show_all();
 
   void fill_polygon(std::span<const Point> points, const Colour& colour);
-  /// Fills and strokes in one colour, so that neighbours show no seam.
-  void fill_tile(std::span<const Point> points, const Colour& colour);
+  /// Fills and strokes polygons in one colour, so that neighbours show no seam.
+  void fill_tiles(std::span<const std::vector<Point>> tiles, const Colour& colour);
   void stroke_line(std::span<const Point> points, const Colour& colour, double width,
                    bool dashed = false);
+  /// Lines that have one colour; where they cross it is no darker, whatever its opacity.
+  void stroke_lines(std::span<const std::array<Point, 2>> lines, const Colour& colour,
+                    double width);
   void fill_circle(Point centre, double radius, const Colour& colour);
   void stroke_circle(Point centre, double radius, const Colour& colour, double width);
   /// Base line at `at`; size in layout pixels.

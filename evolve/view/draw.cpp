@@ -8,13 +8,6 @@
 namespace metamorph::evolve {
 namespace {
 
-// The direction of movement, in the plane in water and along the ground on land.
-std::optional<Point> direction_of(const Stage& stage) {
-  if (!stage.outcome || stage.outcome->distance <= 0) return std::nullopt;
-  const auto& [x, y] = stage.outcome->mean_position;
-  return stage.ground ? Point{x, 0} : Point{x, y};
-}
-
 std::string caption_of(const Stage& stage) {
   if (stage.body.node_count() == 0) return "no body";
   std::string caption =
@@ -38,6 +31,12 @@ Sheet birth_sheet(std::span<const int> starts) {
 }
 
 }  // namespace
+
+std::optional<Point> direction_of(const Stage& stage) {
+  if (!stage.outcome || stage.outcome->distance <= 0) return std::nullopt;
+  const auto& [x, y] = stage.outcome->mean_position;
+  return stage.ground ? Point{x, 0} : Point{x, y};
+}
 
 Sheet champion_sheet(std::span<const Stage> stages, std::span<const int> starts) {
   Sheet sheet = birth_sheet(starts);

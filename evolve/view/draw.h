@@ -23,6 +23,9 @@ struct Stage {
   bool ground = false;  ///< drawn on a ground line
 };
 
+/// Where it went, if it did: in the plane in water and along the ground on land.
+std::optional<Point> direction_of(const Stage& stage);
+
 /// Embryos above, bodies below, stages side by side, to one scale, with distances and arrows in the
 /// direction of movement (figures 4, 5). Cells have the colour of the stage they were born in;
 /// `starts`: the steps at which the stages after the first begin, ascending.

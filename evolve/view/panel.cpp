@@ -15,6 +15,7 @@ Point operator*(double s, Point p) { return {s * p.x, s * p.y}; }
 Point middle(Point a, Point b) { return 0.5 * (a + b); }
 
 using Points = std::vector<Point>;
+using Segments = std::vector<std::array<Point, 2>>;
 
 Points points_of(std::span<const double> x, std::span<const double> y) {
   Points points(x.size());
@@ -28,35 +29,58 @@ double area(const std::array<Point, 3>& p) {
   return 0.5 * ((p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y));
 }
 
+/// Tiles of a body by their colour, in the order in which colours come up.
+class Tiles {
+ public:
+  void add(const Colour& colour, std::vector<Point> tile) {
+    const auto found = std::find_if(groups_.begin(), groups_.end(),
+                                    [&](const Group& group) { return group.colour == colour; });
+    Group& group = found == groups_.end() ? groups_.emplace_back(Group{colour, {}}) : *found;
+    group.tiles.push_back(std::move(tile));
+  }
+  void draw(Canvas& canvas) const {
+    for (const Group& group : groups_) canvas.fill_tiles(group.tiles, group.colour);
+  }
+
+ private:
+  struct Group {
+    Colour colour;
+    std::vector<std::vector<Point>> tiles;
+  };
+  std::vector<Group> groups_;
+};
+
 // Every triangle is shared out among its corners by its medians, so that each cell shows its own
 // colour around its node.
 void draw_cells(Canvas& canvas, const core::Body& body, const Points& points,
                 const std::function<Colour(core::Index)>& colour) {
-  for (const auto& triangle : body.triangles) {
-    const Point a = at(points, triangle[0]), b = at(points, triangle[1]),
-                c = at(points, triangle[2]);
-    if (colour(triangle[0]) == colour(triangle[1]) && colour(triangle[1]) == colour(triangle[2])) {
-      canvas.fill_tile(std::array{a, b, c}, colour(triangle[0]));
+  Tiles tiles;
+  for (const auto& [i, j, k] : body.triangles) {
+    const Point a = at(points, i), b = at(points, j), c = at(points, k);
+    if (colour(i) == colour(j) && colour(j) == colour(k)) {
+      tiles.add(colour(i), {a, b, c});
       continue;
     }
     const Point centre = (1.0 / 3) * (a + b + c);
-    const std::array<Point, 4> share[3] = {{a, middle(a, b), centre, middle(c, a)},
-                                           {b, middle(b, c), centre, middle(a, b)},
-                                           {c, middle(c, a), centre, middle(b, c)}};
-    for (std::size_t k = 0; k < 3; ++k) canvas.fill_tile(share[k], colour(triangle[k]));
+    tiles.add(colour(i), {a, middle(a, b), centre, middle(c, a)});
+    tiles.add(colour(j), {b, middle(b, c), centre, middle(a, b)});
+    tiles.add(colour(k), {c, middle(c, a), centre, middle(b, c)});
   }
+  tiles.draw(canvas);
+}
+
+Segments segments_of(const std::vector<std::array<core::Index, 2>>& edges, const Points& points) {
+  Segments segments;
+  segments.reserve(edges.size());
+  for (const auto& [i, j] : edges) segments.push_back({at(points, i), at(points, j)});
+  return segments;
 }
 
 void draw_mesh(Canvas& canvas, const core::Body& body, const Points& points, double pixel,
                const Colour& springs, bool nodes) {
-  for (const auto& [i, j] : body.springs) {
-    const std::array line{at(points, i), at(points, j)};
-    canvas.stroke_line(line, springs, std::max(0.035, 0.35 * pixel));
-  }
-  for (const auto& [i, j] : core::outline_of(body.triangles)) {
-    const std::array line{at(points, i), at(points, j)};
-    canvas.stroke_line(line, colours::ink, std::max(0.11, 0.9 * pixel));
-  }
+  canvas.stroke_lines(segments_of(body.springs, points), springs, std::max(0.035, 0.35 * pixel));
+  canvas.stroke_lines(segments_of(core::outline_of(body.triangles), points), colours::ink,
+                      std::max(0.11, 0.9 * pixel));
   if (!nodes) return;
   for (const Point& p : points) {
     canvas.fill_circle(p, std::max(0.085, 0.7 * pixel), colours::ink);
@@ -94,10 +118,11 @@ void draw_ground(Canvas& canvas, const Box& box, double height, double pixel) {
   const double width = std::max(0.06, 0.8 * pixel);
   const std::array line{Point{box.left, height}, Point{box.right, height}};
   canvas.stroke_line(line, colours::ground, width);
+  Segments hatches;
   for (double x = box.left + 0.6; x <= box.right; x += 0.9) {
-    const std::array hatch{Point{x, height}, Point{x - 0.5, height - 0.5}};
-    canvas.stroke_line(hatch, colours::ground, 0.6 * width);
+    hatches.push_back({Point{x, height}, Point{x - 0.5, height - 0.5}});
   }
+  canvas.stroke_lines(hatches, colours::ground, 0.6 * width);
 }
 
 }  // namespace
@@ -143,21 +168,28 @@ Panel embryo_panel(const core::Embryo& embryo, std::span<const int> starts) {
       canvas.stroke_circle(points[i], cell_radius - line / 2, mix(of_birth[i], colours::ink, 0.35),
                            line);
     }
-    for (const auto& [i, j] : embryo.links) {
-      const std::array ends{at(points, i), at(points, j)};
-      Colour colour = colours::ink;
-      colour.alpha = 0.55;
-      canvas.stroke_line(ends, colour, std::max(0.045, 0.4 * pixel));
-    }
+    Colour links = colours::ink;
+    links.alpha = 0.55;
+    canvas.stroke_lines(segments_of(embryo.links, points), links, std::max(0.045, 0.4 * pixel));
   };
   return panel;
 }
 
-Panel body_panel(const core::Body& body, const BirthStages& born, std::optional<Point> direction,
-                 bool ground) {
+namespace {
+
+struct CellStyle {
+  std::function<Colour(core::Index)> colour;
+  double springs = 0.5;  ///< opacity
+  bool nodes = true;
+};
+
+/// A body at rest.
+Panel resting_panel(const core::Body& body, const CellStyle& style, std::optional<Point> direction,
+                    bool ground) {
   Panel panel;
   const Points points = points_of(body.x, body.y);
   panel.box = box_of(points, body_margin);
+  if (points.empty()) return panel;
   const double floor = panel.box.bottom + body_margin;
   Points arrow;
   if (direction && std::hypot(direction->x, direction->y) > 0) {
@@ -168,16 +200,24 @@ Panel body_panel(const core::Body& body, const BirthStages& born, std::optional<
   const Box box = panel.box;
   panel.draw = [=](Canvas& canvas, double pixel) {
     if (ground) draw_ground(canvas, box, floor, pixel);
-    draw_cells(canvas, body, points, [&](core::Index i) {
-      const int stage = born.empty() ? 0 : born[static_cast<std::size_t>(i)];
-      return mix(birth_colour(stage), colours::paper, 0.25);
-    });
+    draw_cells(canvas, body, points, style.colour);
     Colour springs = colours::ink;
-    springs.alpha = 0.5;
-    draw_mesh(canvas, body, points, pixel, springs, true);
+    springs.alpha = style.springs;
+    draw_mesh(canvas, body, points, pixel, springs, style.nodes);
     if (!arrow.empty()) canvas.fill_polygon(arrow, colours::ink);
   };
   return panel;
+}
+
+}  // namespace
+
+Panel body_panel(const core::Body& body, const BirthStages& born, std::optional<Point> direction,
+                 bool ground) {
+  const auto colour = [born](core::Index i) {
+    const int stage = born.empty() ? 0 : born[static_cast<std::size_t>(i)];
+    return mix(birth_colour(stage), colours::paper, 0.25);
+  };
+  return resting_panel(body, {colour}, direction, ground);
 }
 
 Panel motion_panel(const core::Body& body, std::span<const double> x, std::span<const double> y,
@@ -189,11 +229,13 @@ Panel motion_panel(const core::Body& body, std::span<const double> x, std::span<
   const Box box = panel.box;
   panel.draw = [=](Canvas& canvas, double pixel) {
     if (ground) draw_ground(canvas, box, 0, pixel);
+    Tiles tiles;
     for (std::size_t t = 0; t < body.triangles.size(); ++t) {
       const auto& [i, j, k] = body.triangles[t];
       const std::array corners{at(points, i), at(points, j), at(points, k)};
-      canvas.fill_tile(corners, strain_colour(area(corners) / body.rest_area[t]));
+      tiles.add(strain_colour(area(corners) / body.rest_area[t]), {corners.begin(), corners.end()});
     }
+    tiles.draw(canvas);
     Colour springs = colours::ink;
     springs.alpha = 0.25;
     draw_mesh(canvas, body, points, pixel, springs, false);
@@ -201,19 +243,11 @@ Panel motion_panel(const core::Body& body, std::span<const double> x, std::span<
   return panel;
 }
 
-Panel phase_panel(const core::Body& body) {
-  Panel panel;
-  const Points points = points_of(body.x, body.y);
-  panel.box = box_of(points, body_margin);
-  panel.draw = [=](Canvas& canvas, double pixel) {
-    draw_cells(canvas, body, points, [&](core::Index i) {
-      return phase_colour(body.phase[static_cast<std::size_t>(i)]);
-    });
-    Colour springs = colours::ink;
-    springs.alpha = 0.3;
-    draw_mesh(canvas, body, points, pixel, springs, false);
+Panel phase_panel(const core::Body& body, std::optional<Point> direction, bool ground) {
+  const auto colour = [phase = body.phase](core::Index i) {
+    return phase_colour(phase[static_cast<std::size_t>(i)]);
   };
-  return panel;
+  return resting_panel(body, {colour, 0.3, false}, direction, ground);
 }
 
 }  // namespace metamorph::evolve

@@ -56,7 +56,9 @@ Panel body_panel(const core::Body& body, const BirthStages& born,
 Panel motion_panel(const core::Body& body, std::span<const double> x, std::span<const double> y,
                    bool ground = false);
 
-/// A body with the phase shift of every cell in colour (figure 9).
-Panel phase_panel(const core::Body& body);
+/// A body with the phase shift of every cell in colour (figure 9); `direction` and `ground` as
+/// above.
+Panel phase_panel(const core::Body& body, std::optional<Point> direction = std::nullopt,
+                  bool ground = false);
 
 }  // namespace metamorph::evolve

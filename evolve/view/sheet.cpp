@@ -154,7 +154,7 @@ void draw_panel(Canvas& canvas, const Panel& panel, Point centre, const Layout& 
 
 void write_sheet(const Sheet& sheet, const std::string& file, Overwrite overwrite) {
   const Layout layout = lay_out(sheet);
-  Canvas canvas(file, layout.width, layout.height);
+  Canvas canvas(file, layout.width, layout.height, sheet.density);
   draw_head(canvas, sheet);
 
   const double gaps =

@@ -23,11 +23,12 @@ struct Sheet {
   double width = 1000;           ///< layout pixels the sheet may take
   double height = 640;           ///< layout pixels the drawings may take, all rows together
   double max_scale = 26;         ///< layout pixels per d, at most
+  double density = 2;            ///< pixels of a PNG per layout pixel
 };
 
 /// Writes the sheet as .svg, .png or .pdf, by the ending of `file`. The same sheet gives the same
-/// bytes of SVG. The file appears whole or not at all (output_file.h). Throws std::runtime_error if
-/// it cannot be drawn, InputError if it cannot be written.
+/// bytes of SVG and PNG. The file appears whole or not at all (output_file.h). Throws
+/// std::runtime_error if it cannot be drawn, InputError if it cannot be written.
 void write_sheet(const Sheet& sheet, const std::string& file, Overwrite overwrite);
 
 }  // namespace metamorph::evolve

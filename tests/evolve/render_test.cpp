@@ -10,13 +10,17 @@
 #include "evolve/view/motion.h"
 #include "tests/bodies.h"
 #include "tests/evolve/program.h"
+#include "tests/evolve/runs.h"
 #include "tests/evolve/svg.h"
 
 namespace metamorph::evolve {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::Ge;
 using ::testing::HasSubstr;
+using ::testing::Le;
 using tests::run_program;
 
 /// Cells turn by where they are, and fill the plane.
@@ -63,6 +67,63 @@ TEST_F(Render, DrawsABody) {
     EXPECT_EQ(svg(name).fault, "") << name;
     EXPECT_GT(svg(name).drawn_paths, 18) << name;  // 18 triangles
   }
+}
+
+TEST_F(Render, DrawsManyGenomesAndBodies) {
+  EXPECT_EQ(render("blob.json strip.json --kind zoo --scene land --out a.svg").exit_code, 2);
+  EXPECT_EQ(render("blob.json blob.json --kind zoo --out a.svg").exit_code, 0);
+  EXPECT_EQ(render("blob.json strip.json --kind zoo --colours phase --out b.svg").exit_code, 0);
+  for (const std::string name : {"a.svg", "b.svg"}) EXPECT_EQ(svg(name).fault, "") << name;
+  EXPECT_EQ(render("strip.json --kind zoo --scene land --out c.png --density 0.5").exit_code, 0);
+}
+
+TEST_F(Render, DrawsManyChampionsOfRuns) {
+  for (const int seed : {1, 2}) {
+    tests::run_whole(here() / fmt::format("run{}", seed),
+                     tests::tiny_experiment("simple", 4, static_cast<std::uint64_t>(seed)));
+  }
+  const auto drawn = [&](const std::string& arguments) {
+    const auto result = render(arguments + " --overwrite --out drawn.svg");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(svg("drawn.svg").fault, "");
+    return tests::text_of(here() / "drawn.svg");
+  };
+  const auto letters = [&](const std::string& arguments) {
+    const std::string text = drawn(arguments);
+    int count = 0;
+    for (std::size_t at = text.find("<use "); at != text.npos; at = text.find("<use ", at + 1)) {
+      ++count;
+    }
+    return count;
+  };
+  // Every animat has its title, "generation 3" or "seed 1", perhaps "no cell alive" twice.
+  const auto adds = [](int animats) { return AllOf(Ge(12 * animats), Le(38 * animats)); };
+  const int one = letters("run1 --kind history --generations 3");
+  const int two = letters("run1 --kind history --generations 0,3");
+  EXPECT_THAT(two - one, adds(1));
+  EXPECT_EQ(letters("run1 --kind history --generations 3,0,3"), two);
+  EXPECT_THAT(letters("run1 --kind history --count 3") - one, adds(2));
+  EXPECT_THAT(letters("run1 --kind history") - one, adds(3));  // of four generations
+  EXPECT_GT(letters("run1 run2 run1 --kind zoo"), letters("run1 run2 --kind zoo") + 5);
+  EXPECT_EQ(drawn("run1 run2 --kind zoo"), drawn("run1 run2 --kind zoo"));
+
+  const auto refused = [&](const std::string& arguments, const std::string& why) {
+    const auto result = render(arguments + " --out none.svg");
+    EXPECT_EQ(result.exit_code, 2) << arguments;
+    EXPECT_THAT(result.err_lines(), ElementsAre(HasSubstr(why)));
+    EXPECT_FALSE(std::filesystem::exists(here() / "none.svg"));
+  };
+  refused("run1 --kind history --generations 1,4",
+          "--generations: 4: expected generations from 0 to 3, those of run1/run.db");
+  refused("run1 run2 --kind history", "expected one run");
+  refused("blob.json --kind history", "expected one run");
+  refused("run1 run2 --kind zoo --generations 1", "--generations: expected one run");
+  refused("run1 run2 --kind animat", "2 of them: expected one for --kind animat");
+  refused("run1 --kind motion --count 3", "--count: not of --kind motion");
+  refused("run1 --kind history --generation 1", "expected --generations");
+  refused("run1 blob.json --kind zoo --generation 1", "expected a run, not a genome");
+  refused("run1 blob.json --kind zoo --set development.max_cells=30", "not together with a run");
+  refused("run1 run2 --kind zoo --generation 9", "expected a generation below 4");
 }
 
 TEST(Svg, IsReadOrItsFaultTold) {

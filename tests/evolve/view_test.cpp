@@ -1,11 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 #include <regex>
 #include <stdexcept>
@@ -15,6 +12,8 @@
 #include "evolve/view/draw.h"
 #include "tests/bodies.h"
 #include "tests/embryos.h"
+#include "tests/evolve/files.h"
+#include "tests/evolve/svg.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -58,66 +57,32 @@ Sheet sample_sheet() {
   return sheet;
 }
 
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-// A folder of this test, removed with everything in it.
 class Pictures : public testing::Test {
  protected:
-  Pictures() { std::filesystem::create_directories(folder_); }
-  ~Pictures() override { std::filesystem::remove_all(folder_); }
-  std::string file(const std::string& name) const { return folder_ / name; }
+  std::string file(const std::string& name) const { return folder_.path() / name; }
 
  private:
-  std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) /
-      ("metamorph-view-" +
-       std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  tests::TemporaryDirectory folder_;
 };
 
-// Every element that opens closes, in order, and nothing stands outside the one root.
-bool is_well_formed(const std::string& xml) {
-  std::vector<std::string> open;
-  int roots = 0;
-  const std::regex tag(R"(<(\?[^>]*\?|/?)([A-Za-z:]*)((?:[^<>"]|"[^"<]*")*?)(/?)>)");
-  for (auto it = std::sregex_iterator(xml.begin(), xml.end(), tag); it != std::sregex_iterator();
-       ++it) {
-    const std::smatch& match = *it;
-    if (match[1].str().starts_with("?")) continue;
-    if (match[1] == "/") {
-      if (open.empty() || open.back() != match[2]) return false;
-      open.pop_back();
-      continue;
-    }
-    if (open.empty()) ++roots;
-    if (match[4] != "/") open.push_back(match[2]);
-  }
-  const auto brackets = std::count(xml.begin(), xml.end(), '<');
-  const auto tags = std::distance(std::sregex_iterator(xml.begin(), xml.end(), tag), {});
-  return open.empty() && roots == 1 && brackets == tags;
-}
+bool is_well_formed(const std::string& svg) { return tests::read_svg(svg).fault.empty(); }
 
 TEST_F(Pictures, SvgIsWellFormed) {
-  EXPECT_TRUE(is_well_formed("<a><b x=\"1\"/></a>"));
-  EXPECT_FALSE(is_well_formed("<a><b></a></b>"));
-  EXPECT_FALSE(is_well_formed("<a>"));
   write_sheet(sample_sheet(), file("a.svg"), Overwrite::yes);
-  EXPECT_TRUE(is_well_formed(bytes_of(file("a.svg"))));
+  EXPECT_TRUE(is_well_formed(tests::text_of(file("a.svg"))));
 }
 
 TEST_F(Pictures, TheSameSheetGivesTheSameBytesOfSvg) {
   write_sheet(sample_sheet(), file("a.svg"), Overwrite::yes);
   write_sheet(sample_sheet(), file("b.svg"), Overwrite::yes);
-  EXPECT_GT(bytes_of(file("a.svg")).size(), 1000u);
-  EXPECT_EQ(bytes_of(file("a.svg")), bytes_of(file("b.svg")));
+  EXPECT_GT(tests::text_of(file("a.svg")).size(), 1000u);
+  EXPECT_EQ(tests::text_of(file("a.svg")), tests::text_of(file("b.svg")));
 }
 
 TEST_F(Pictures, PngHasTwoPixelsPerUnitOfTheSvg) {
   write_sheet(sample_sheet(), file("a.svg"), Overwrite::yes);
   write_sheet(sample_sheet(), file("a.png"), Overwrite::yes);
-  const std::string svg = bytes_of(file("a.svg")), png = bytes_of(file("a.png"));
+  const std::string svg = tests::text_of(file("a.svg")), png = tests::text_of(file("a.png"));
   std::smatch size;
   ASSERT_TRUE(
       std::regex_search(svg, size, std::regex(R"r(width="([0-9.]+)pt" height="([0-9.]+))r")));
@@ -135,7 +100,7 @@ TEST_F(Pictures, PngHasTwoPixelsPerUnitOfTheSvg) {
 
 TEST_F(Pictures, PdfIsWritten) {
   write_sheet(sample_sheet(), file("a.pdf"), Overwrite::yes);
-  EXPECT_EQ(bytes_of(file("a.pdf")).substr(0, 5), "%PDF-");
+  EXPECT_EQ(tests::text_of(file("a.pdf")).substr(0, 5), "%PDF-");
 }
 
 TEST_F(Pictures, OtherEndingsAndUnwritablePlacesAreRefused) {
@@ -154,7 +119,7 @@ TEST_F(Pictures, StagesWithoutCellsOrBodyAreDrawn) {
   write_sheet(phase_sheet(stages), file("b.svg"), Overwrite::yes);
   write_sheet(Sheet{}, file("c.svg"), Overwrite::yes);
   for (const char* name : {"a.svg", "b.svg", "c.svg"}) {
-    EXPECT_TRUE(is_well_formed(bytes_of(file(name)))) << name;
+    EXPECT_TRUE(is_well_formed(tests::text_of(file(name)))) << name;
   }
 }
 
