@@ -160,7 +160,7 @@ Sheet sheet_of_many(const RenderOptions& options) {
   zoo.rules = options.rules;
   zoo.generation = options.generation;
   zoo.generations = options.generations;
-  if (options.count > 0) zoo.count = options.count;
+  zoo.count = options.count;
   if (options.columns > 0) zoo.style.columns = options.columns;
   const bool is_history = options.kind == "history";
   const bool shows_phase = options.colours.empty() ? is_history : options.colours == "phase";

@@ -11,6 +11,7 @@
 #include "evolve/app/life_sources.h"
 #include "evolve/app/options.h"
 #include "evolve/app/streams.h"
+#include "evolve/app/subject.h"
 #include "evolve/files/input_error.h"
 #include "evolve/files/output_file.h"
 #include "evolve/files/printable.h"
@@ -96,7 +97,7 @@ void replay(const ReplayOptions& options) {
   for (const std::string& source : sources) {
     LifeSources only = options.sources;
     only.sources = {source};
-    if (is_run(source)) {
+    if (kind_of(source) == SourceKind::run) {
       runs.push_back(add_run(source, static_cast<int>(runs.size()), only, options.life, add));
     } else {
       each_life(only, options.life, [&](Life life) { add(life, {}); });

@@ -29,7 +29,8 @@ std::vector<int> evenly_spread(int done, int count) {
 std::vector<int> generations_of(const RunReader& run, const ZooOptions& options) {
   const int done = run.generations_done();
   if (done == 0) throw InputError(run.file().string() + ": no generation is done yet");
-  if (options.generations.empty()) return evenly_spread(done, options.count);
+  if (options.generations.empty())
+    return evenly_spread(done, options.count > 0 ? options.count : 8);
   std::vector<int> generations = options.generations;
   std::sort(generations.begin(), generations.end());
   generations.erase(std::unique(generations.begin(), generations.end()), generations.end());
@@ -118,8 +119,9 @@ Sheet zoo_of(const ZooOptions& options) {
   if (kinds.size() == 1 && kinds.front() == SourceKind::run && options.generation < 0) {
     return generations_sheet(options, "the best of their generations");
   }
-  if (!options.generations.empty()) {
-    throw InputError("--generations: expected one run, and no --generation");
+  if (!options.generations.empty() || options.count > 0) {
+    throw InputError(fmt::format("{}: expected one run, and no --generation",
+                                 options.count > 0 ? "--count" : "--generations"));
   }
 
   std::vector<Exhibit> exhibits;

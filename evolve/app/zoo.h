@@ -17,7 +17,7 @@ struct ZooOptions {
   RulesOptions rules;
   int generation = -1;           ///< of every run; -1: the best of all
   std::vector<int> generations;  ///< of the one run; empty: `count` of them, evenly spread
-  int count = 8;
+  int count = 0;                 ///< 0: was not given
   ZooStyle style;
 };
 

@@ -246,8 +246,15 @@ void Canvas::text(Point at, const std::string& words, double size, const Colour&
 
 std::string Canvas::finish() {
   surface_->check(cairo_status(surface_->cairo()));
-  if (surface_->file.ends_with(".png")) surface_->write_png();
-  if (surface_->file == "frame") surface_->take_pixels();
+  // Of a film every frame would have a palette of its own, and flicker.
+  if (surface_->file == "frame.png") {
+    surface_->check(
+        cairo_surface_write_to_png_stream(surface_->surface.get(), append, &surface_->bytes));
+  } else if (surface_->file == "frame") {
+    surface_->take_pixels();
+  } else if (surface_->file.ends_with(".png")) {
+    surface_->write_png();
+  }
   cairo_surface_finish(surface_->surface.get());
   surface_->check(cairo_surface_status(surface_->surface.get()));
   if (surface_->file.ends_with(".svg")) surface_->name_group();

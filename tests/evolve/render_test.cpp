@@ -118,6 +118,7 @@ TEST_F(Render, DrawsManyChampionsOfRuns) {
   refused("run1 run2 --kind history", "expected one run");
   refused("blob.json --kind history", "expected one run");
   refused("run1 run2 --kind zoo --generations 1", "--generations: expected one run");
+  refused("run1 run2 --kind zoo --count 2", "--count: expected one run");
   refused("run1 run2 --kind animat", "2 of them: expected one for --kind animat");
   refused("run1 --kind motion --count 3", "--count: not of --kind motion");
   refused("run1 --kind history --generation 1", "expected --generations");
