@@ -20,7 +20,7 @@ struct Interval {
 /// The percentile bootstrap (Efron 1979): samples of the same size are drawn from a sample with
 /// replacement, and the middle 95 % of their centres say where that of another study might be. With
 /// few runs such an interval is too short: that of the mean of five normal values covers the truth
-/// 84 times in a hundred, of twenty 93 times.
+/// 85 times in a hundred, of twenty 93 times.
 ///
 /// Drawn are whole runs, the same ones for whatever was measured of them, so that intervals of
 /// neighbouring generations differ by the data alone. Which are drawn depends on the runs' seeds
