@@ -249,7 +249,7 @@ void PageWriter::finish(const std::vector<RunInPage>& runs) {
                          {"phase_step", phase_step},
                          {"paper_step", core::paper_step},
                          {"runs", std::move(list)}}));
-  write("<script>");
+  write("<script type=\"module\">");
   write(page_js);
   write("</script>\n</body>\n</html>\n");
   output_.commit();

@@ -27,7 +27,7 @@ struct RunInPage {
 };
 
 /// Writes a page that replays lives: one HTML file that needs nothing else. Its own sources are
-/// page.html, page.css and page.js of this folder.
+/// the HTML, CSS and JavaScript of this folder.
 class PageWriter {
  public:
   /// `command`: what made the page, as a person would type it. Throws InputError (output_file.h).

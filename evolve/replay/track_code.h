@@ -12,7 +12,7 @@ namespace metamorph::evolve {
 // How moving points lie in a page. Coordinates are whole numbers of 1/256 d. Frames are cut into
 // chunks of 256 that are read one by one, so that seeking reads one or two. A chunk is a zlib
 // stream of varints: of every point that is there in it, in order, its x and then its y: the first
-// number, the first difference, then second differences, all zigzag. evolve/replay/page.js reads
+// number, the first difference, then second differences, all zigzag. evolve/replay/read.js reads
 // it.
 
 inline constexpr double coordinate_step = 1.0 / 256;  ///< d
