@@ -1,36 +1,16 @@
-// Colours, those of evolve/view/colour.cpp, and what they stand for.
+// Colours, which the page brings from evolve/view/colour.cpp, and what they stand for.
 
 const rgb = (r, g, b) => `rgb(${round(255 * r)},${round(255 * g)},${round(255 * b)})`;
 const blend = (a, b, t) => a.map((v, i) => mix(v, b[i], t));
 const pale = (colour) => rgb(...blend(colour, WHITE, 0.25));
-const WHITE = [1, 1, 1], CONTRACTED = [0.16, 0.38, 0.76], EXPANDED = [0.83, 0.20, 0.18], RANGE = 0.4;
-const BIRTH = [[0.33, 0.58, 0.84], [0.88, 0.38, 0.33], [0.87, 0.66, 0.24], [0.36, 0.67, 0.47], [0.58, 0.45, 0.74]];
-const birthColour = (stage) => BIRTH[stage < BIRTH.length ? stage : 1 + (stage - 1) % 4];
-const FREE = [0.88, 0.89, 0.91], ON_GROUND = [0.87, 0.56, 0.02], ON_ITSELF = [0.34, 0.25, 0.62];
-const SCALE = [[0.27, 0.00, 0.33], [0.23, 0.32, 0.55], [0.13, 0.57, 0.55], [0.37, 0.79, 0.38], [0.99, 0.91, 0.14]];
-function scaleColour(t) {
-  const v = clamp(t, 0, 1) * 4, k = min(3, floor(v));
-  return blend(SCALE[k], SCALE[k + 1], v - k);
-}
-function strainColour(ratio) {
-  const strain = clamp((ratio - 1) / RANGE, -1, 1);
-  return blend(WHITE, strain < 0 ? CONTRACTED : EXPANDED, abs(strain));
-}
-function phaseColour(phase) {
-  const a = 0.125 * cos(phase), b = 0.125 * sin(phase), L = 0.74;
-  const l = (L + 0.3963377774 * a + 0.2158037573 * b) ** 3, m = (L - 0.1055613458 * a - 0.0638541728 * b) ** 3,
-    s = (L - 0.0894841775 * a - 1.2914855480 * b) ** 3;
-  const srgb = (v) => (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055);
-  return [4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
-    -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
-    -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s].map((v) => srgb(clamp(v, 0, 1)));
-}
-// In steps, so that what has one colour is drawn at once.
-const table = (count, colour) => Array.from({ length: count + 1 }, (_, i) => rgb(...colour(i / count)));
-const STRAIN = table(48, (t) => strainColour(1 + RANGE * (2 * t - 1)));
-const PHASE = table(64, (t) => phaseColour(2 * PI * t));
-const LINEAR = table(48, scaleColour);
+const WHITE = [1, 1, 1], ON_ITSELF = [0.34, 0.25, 0.62];
+const { range: RANGE, birth: BIRTH, free: FREE, ground: ON_GROUND } = page.colours;
+const birthColour = (stage) => BIRTH[stage < BIRTH.length ? stage : 1 + (stage - 1) % (BIRTH.length - 1)];
 const pick = (colours, t) => colours[round(clamp(t, 0, 1) * (colours.length - 1))];
+const phaseColour = (phase) => pick(page.colours.phase, turn(phase));
+const scaleColour = (t) => pick(page.colours.scale, t);
+// In steps, so that what has one colour is drawn at once.
+const [STRAIN, PHASE, LINEAR] = ["strain", "phase", "scale"].map((name) => page.colours[name].map((c) => rgb(...c)));
 const turn = (phase) => { const t = phase / (2 * PI); return t - floor(t); };
 
 // Who touches the ground, or whose outline comes nearer to itself than it keeps from itself.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "evolve/replay/development_code.h"
 #include "evolve/replay/page_parts.h"
 #include "evolve/replay/track_code.h"
+#include "evolve/view/colour.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -202,6 +204,34 @@ Json run_json(const RunInPage& run) {
   return {{"name", run.name}, {"fitness", fitness}, {"ancestors", ancestors}};
 }
 
+Json colour_json(const Colour& colour) {
+  return {rounded(colour.red, 1e-3), rounded(colour.green, 1e-3), rounded(colour.blue, 1e-3)};
+}
+
+/// `count` + 1 colours from 0 to 1.
+template <class ColourOf>
+Json scale_json(int count, const ColourOf& colour) {
+  Json scale = Json::array();
+  for (int k = 0; k <= count; ++k) scale.push_back(colour_json(colour(k / double(count))));
+  return scale;
+}
+
+/// The page draws with the colours of all other pictures.
+Json colours_json() {
+  constexpr double range = 0.4;  // strain_colour()
+  constexpr int stages = 5;      // birth_colour() knows no more
+  Json birth = Json::array();
+  for (int stage = 0; stage < stages; ++stage) birth.push_back(colour_json(birth_colour(stage)));
+  return {
+      {"range", range},
+      {"strain", scale_json(48, [](double t) { return strain_colour(1 + range * (2 * t - 1)); })},
+      {"phase", scale_json(64, [](double t) { return phase_colour(2 * std::numbers::pi * t); })},
+      {"scale", scale_json(48, sequential_colour)},
+      {"birth", std::move(birth)},
+      {"ground", colour_json(contact_colour(true))},
+      {"free", colour_json(contact_colour(false))}};
+}
+
 std::string element(const std::string& id, const Json& json) {
   return fmt::format("<script type=\"application/json\" id=\"{}\">{}</script>\n", id,
                      script_text(json));
@@ -248,6 +278,7 @@ void PageWriter::finish(const std::vector<RunInPage>& runs) {
                          {"period_step", period_step},
                          {"phase_step", phase_step},
                          {"paper_step", core::paper_step},
+                         {"colours", colours_json()},
                          {"runs", std::move(list)}}));
   write("<script type=\"module\">");
   write(page_js);
