@@ -33,7 +33,7 @@ END
 [ -d "$out" ] || exit 0
 say "evolution took $(took $((SECONDS - start)))"
 page=$out/best.html
-"$metamorph" replay "$out" --out "$page" >/dev/null 2>&1 || page=
+"$metamorph" replay "$out" --out "$page" >/dev/null || page=
 say
 [ -n "$page" ] && say "Open $page in a browser: the best animat, from the egg to the adult."
 say "The run lies in $out: run.db is its record, best.png and best.svg show its best animat."

@@ -225,7 +225,7 @@ function connect() {
 }
 
 // For whoever drives the page.
-const replay = window.replay = { state, drawn: 0, life: fetchLife, whole: () => painted && !wanted, cellsAt, signalsAt,
+const replay = window.replay = { state, drawn: 0, life: fetchLife, whole: () => painted && !wanted, cellsAt, linksAt, signalsAt,
   seek: (a, t) => choose(a).then(() => seek(t)) };
 
 readTheme();

@@ -165,6 +165,7 @@ function cellsAt(development, step) {
   }
   return { x, y, there, gone };
 }
+const linksAt = (development, step) => development.links.filter(([, , from, to]) => from <= step && step < to);
 function signalsAt(development, i, step) {
   let now = development.changes[i][0];
   for (const change of development.changes[i]) if (change[0] <= step) now = change; else break;
@@ -206,7 +207,7 @@ function drawEmbryo(g, view, development, step, kind, alpha) {
   }
   g.globalAlpha = 0.55 * alpha;
   pen(g, theme.edge, line);
-  g.stroke(lines(development.links.filter(([, , from, to]) => from <= step && step < to), cells));
+  g.stroke(lines(linksAt(development, step), cells));
   g.globalAlpha = 1;
   return true;
 }

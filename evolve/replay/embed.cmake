@@ -1,5 +1,5 @@
 # Makes page_parts.cpp of the page's own sources: cmake -D FOLDER=... -D OUT=... -P embed.cmake
-# Every page carries them: without indentation, and without lines that are comments.
+# Every page carries them: without indentation and comments.
 set(page_html page.html)
 set(page_css page.css)
 set(page_js read.js player.js colours.js draw.js around.js)
@@ -12,6 +12,7 @@ foreach(part page_html page_css page_js)
   endforeach()
   string(REGEX REPLACE "\n[ \n]+" "\n" text "${text}")
   string(REGEX REPLACE "\n//[^\n]*" "" text "${text}")
+  string(REGEX REPLACE " // [^\n]*" "" text "${text}")
   string(SUBSTRING "${text}" 1 -1 text)
   string(APPEND code "const std::string_view ${part} = R\"~page~(${text})~page~\";\n")
 endforeach()

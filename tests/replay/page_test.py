@@ -40,7 +40,7 @@ async function cells(a, step) {
   const { x, y, there } = now;
   return there.map((i) => ({ id: d.id[i], mother: d.mother[i], place: [x[i], y[i]],
     period: replay.signalsAt(d, i, step)[1], phase: replay.signalsAt(d, i, step)[2],
-    linked: d.links.filter(([k, j, from, to]) => (k === i || j === i) && from <= step && step < to)
+    linked: replay.linksAt(d, step).filter(([k, j]) => k === i || j === i)
       .map(([k, j]) => d.id[k === i ? j : k]).sort((p, q) => p - q) }));
 }
 """
@@ -195,7 +195,7 @@ def check_numbers(browser, page, folder, metamorph, genome):
         most = errors[int(0.999 * len(errors))]
         print(f"{trial}: {len(errors)} nodes in frames, 99.9 % within {most:.4f} d, worst {errors[-1]:.4f} d")
         assert most < 0.0105 and errors[-1] < 0.06, trial
-    run(metamorph, "grow", genome, "--experiment", folder / "life.toml", "--at", "30,299,600,913,1200",
+    run(metamorph, "grow", genome, "--experiment", folder / "life.toml", "--at", "30,600,961,1021,1171",
         "--out", folder / "grown", *SHORT)
     compared = 0
     for file in sorted((folder / "grown").glob("*.json")):
@@ -205,7 +205,7 @@ def check_numbers(browser, page, folder, metamorph, genome):
         compared += 1
         shown = browser.value(f"(async () => {{ {READ} return cells(0, {embryo['step']}); }})()")
         compare_cells(embryo, shown)
-    assert compared == 5, compared
+    assert compared == 5, compared  # some links end at the last three steps
 
 
 def compare_cells(embryo, shown):
