@@ -18,11 +18,11 @@ TEST(DiskFaults, SomeCallsOfARun) {
   long offset = 0;
   for (const bool on_nfs : {false, true}) {
     for (const bool lasting : {false, true}) {
-      sweep.meet({Kind::error, Calls::all, EIO, 0, 0, on_nfs}, lasting, 150, offset += 17);
-      sweep.meet({Kind::error, Calls::growing, ENOSPC, 0, 0, on_nfs}, lasting, 150, offset += 17);
+      sweep.meet({Kind::error, Calls::all, EIO, 0, 0, on_nfs}, lasting, 500, offset += 17);
+      sweep.meet({Kind::error, Calls::growing, ENOSPC, 0, 0, on_nfs}, lasting, 500, offset += 17);
     }
-    sweep.meet({Kind::short_half, Calls::writes, 0, 0, 0, on_nfs}, false, 150, offset += 17);
-    sweep.meet({Kind::kill, Calls::all, 0, 0, 0, on_nfs}, false, 150, offset -= 80);
+    sweep.meet({Kind::short_half, Calls::writes, 0, 0, 0, on_nfs}, false, 500, offset += 17);
+    sweep.meet({Kind::kill, Calls::all, 0, 0, 0, on_nfs}, false, 500, offset -= 80);
   }
 }
 
