@@ -130,7 +130,9 @@ TEST_F(FilmByFfmpeg, OfADiskThatIsFullIsNotThereAndOneLineTellsWhy) {
   for (const std::size_t blocks : {std::size_t{1}, size / 2 / block, (size - 1) / block}) {
     const auto result = film("strip.json --out b.mp4" + brief, fmt::format("ulimit -f {}", blocks));
     EXPECT_EQ(result.exit_code, 1) << blocks << " of " << size;
-    EXPECT_THAT(result.err_lines(), ElementsAre(StartsWith("metamorph: ffmpeg: "))) << blocks;
+    // LLVM's OpenMP tells that it has no room for a file of its own, too.
+    EXPECT_THAT(result.err_lines(), Contains(StartsWith("metamorph: ")).Times(1)) << blocks;
+    EXPECT_THAT(result.err_lines(), Contains(StartsWith("metamorph: ffmpeg: "))) << blocks;
     EXPECT_EQ(names(), before);
   }
 }
