@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and evolves a small water-to-land run (about a minute and a half
+# Installs what is missing, builds, and evolves a small water-to-land run (about two minutes
 # on two cores):
 #   bash evolve/run.sh [options of `metamorph evolve`, for instance --seed 7 --generations 100]
 # Every call makes a new run in runs/; nothing there is overwritten.
