@@ -9,6 +9,7 @@
 #include "evolve/files/genome_file.h"
 #include "evolve/files/input_error.h"
 #include "evolve/files/printable.h"
+#include "evolve/run/pictures.h"
 
 namespace metamorph::evolve {
 namespace {
@@ -66,9 +67,7 @@ Subject subject_of_genome(const std::filesystem::path& file, const RulesOptions&
 }
 
 std::vector<core::Outcome> outcomes_of(const Subject& subject) {
-  return Evaluator(rules_of(subject.experiment), 1)
-      .evaluate_fully(networks_of(subject.experiment, subject.genome), subject.generation)
-      .trials;
+  return outcomes_of(subject.experiment, subject.genome, subject.generation);
 }
 
 std::string stem_of(const std::filesystem::path& file) { return printable(file.stem().string()); }

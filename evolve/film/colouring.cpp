@@ -11,8 +11,6 @@ namespace {
 constexpr double touching = 0.02;
 constexpr double shown_share = 0.99;  ///< of speeds: few are far above all others
 
-Colour pale(const Colour& colour) { return mix(colour, colours::paper, 0.25); }
-
 Colour period_colour(double period, const Scales& scales) {
   const double range = scales.longest_period - scales.shortest_period;
   return sequential_colour(range > 0 ? (period - scales.shortest_period) / range : 0.5);
@@ -50,17 +48,6 @@ Scales scales_of(std::span<const Life* const> lives) {
     scales.highest_speed = speeds[static_cast<std::size_t>(last)];
   }
   return scales;
-}
-
-std::vector<double> speeds_at(const Track& track, int frame) {
-  const auto from = static_cast<std::size_t>(std::max(frame - 1, 0));
-  const auto to = std::min(from + 1, track.x.size() - 1);
-  std::vector<double> speeds(track.x[to].size());
-  for (std::size_t i = 0; i < speeds.size(); ++i) {
-    speeds[i] = std::hypot(track.x[to][i] - track.x[from][i], track.y[to][i] - track.y[from][i]) /
-                track.interval;
-  }
-  return speeds;
 }
 
 bool touches(const Motion& motion, int frame, std::size_t node) {

@@ -27,9 +27,6 @@ struct Scales {
 };
 Scales scales_of(std::span<const Life* const> lives);
 
-/// How fast every node moves at a frame of a track, d per time unit.
-std::vector<double> speeds_at(const Track& track, int frame);
-
 /// Whether a node touches the ground at a frame of a motion.
 bool touches(const Motion& motion, int frame, std::size_t node);
 

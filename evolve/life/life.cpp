@@ -100,6 +100,17 @@ void move(std::vector<core::Body> starts, const core::Scene& scene,
 
 }  // namespace
 
+std::vector<double> speeds_at(const Track& track, int frame) {
+  const auto from = static_cast<std::size_t>(std::max(frame - 1, 0));
+  const auto to = std::min(from + 1, track.x.size() - 1);
+  std::vector<double> speeds(track.x[to].size());
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    speeds[i] = std::hypot(track.x[to][i] - track.x[from][i], track.y[to][i] - track.y[from][i]) /
+                track.interval;
+  }
+  return speeds;
+}
+
 Life life_of(const Experiment& experiment, const Genome& genome, int generation,
              const LifeOptions& options) {
   Life life;

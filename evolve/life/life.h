@@ -23,6 +23,9 @@ struct Track {
   int frame_count() const { return static_cast<int>(x.size()); }
 };
 
+/// How fast every node moves at a frame of a track, d per time unit.
+std::vector<double> speeds_at(const Track& track, int frame);
+
 /// One body that moves in one scene.
 struct Motion {
   std::string name;  ///< of the trial; of a body by itself "body"

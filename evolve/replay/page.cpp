@@ -137,12 +137,9 @@ Way way_of(const Track& track) {
 /// The speed that one node in a hundred exceeds, d per time unit: the end of the scale of colours.
 double fast_speed(const Track& track) {
   std::vector<double> speeds;
-  for (std::size_t f = 1; f < track.x.size(); ++f) {
-    for (std::size_t i = 0; i < track.x[f].size(); ++i) {
-      speeds.push_back(
-          std::hypot(track.x[f][i] - track.x[f - 1][i], track.y[f][i] - track.y[f - 1][i]) /
-          track.interval);
-    }
+  for (int f = 1; f < track.frame_count(); ++f) {
+    const std::vector<double> now = speeds_at(track, f);
+    speeds.insert(speeds.end(), now.begin(), now.end());
   }
   if (speeds.empty()) return 0;
   const auto place = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() * 99 / 100);

@@ -28,6 +28,13 @@ std::vector<Stage> stages_of(const Experiment& experiment, const Genome& genome,
   return stages;
 }
 
+std::vector<core::Outcome> outcomes_of(const Experiment& experiment, const Genome& genome,
+                                       int generation) {
+  return Evaluator(rules_of(experiment), 1)
+      .evaluate_fully(networks_of(experiment, genome), generation)
+      .trials;
+}
+
 Sheet individual_sheet(const Experiment& experiment, const Genome& genome,
                        std::span<const core::Outcome> trials, const std::string& heading) {
   const std::vector<Stage> stages = stages_of(experiment, genome, trials);
@@ -39,11 +46,8 @@ Sheet individual_sheet(const Experiment& experiment, const Genome& genome,
 void PictureReporter::started(const RunStart& start) {
   directory_ = start.directory;
   if (start.best.generation < 0) return;
-  draw(start.experiment, start.best, [&] {
-    return Evaluator(rules_of(start.experiment), 1)
-        .evaluate_fully(networks_of(start.experiment, start.best.genome), start.best.generation)
-        .trials;
-  });
+  draw(start.experiment, start.best,
+       [&] { return outcomes_of(start.experiment, start.best.genome, start.best.generation); });
 }
 
 void PictureReporter::generation_done(const GenerationReport& report) {

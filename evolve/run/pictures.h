@@ -15,6 +15,10 @@ namespace metamorph::evolve {
 std::vector<Stage> stages_of(const Experiment& experiment, const Genome& genome,
                              std::span<const core::Outcome> trials);
 
+/// What becomes of a genome in all trials, as that generation has them. One thread.
+std::vector<core::Outcome> outcomes_of(const Experiment& experiment, const Genome& genome,
+                                       int generation);
+
 /// The picture of one individual: the embryo and body of every trial with its distance (figure 5).
 /// `trials` are its outcomes, as recorded.
 Sheet individual_sheet(const Experiment& experiment, const Genome& genome,

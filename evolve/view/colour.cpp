@@ -30,6 +30,8 @@ Colour mix(const Colour& a, const Colour& b, double t) {
           std::lerp(a.alpha, b.alpha, t)};
 }
 
+Colour pale(const Colour& colour) { return mix(colour, colours::paper, 0.25); }
+
 Colour strain_colour(double area_ratio, double range) {
   const double strain = std::clamp((area_ratio - 1) / range, -1.0, 1.0);
   const Colour& end = strain < 0 ? colours::contracted : colours::expanded;

@@ -33,6 +33,9 @@ Colour curve_colour(int number);
 /// (1 - t) a + t b in every channel; t in [0, 1].
 Colour mix(const Colour& a, const Colour& b, double t);
 
+/// As areas are filled, so that lines on them are seen.
+Colour pale(const Colour& colour);
+
 /// Colour of a triangle squeezed or stretched to `area_ratio` = S/S0: white at rest, blue
 /// contracted, red expanded (figures 3, 6); saturated at 1 -+ `range`.
 Colour strain_colour(double area_ratio, double range = 0.4);

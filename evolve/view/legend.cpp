@@ -38,7 +38,7 @@ std::vector<Disc> birth_discs(int stages) {
     std::string words = stage == 0    ? "larval cells"
                         : stages <= 2 ? "born in metamorphosis"
                                       : "born in metamorphosis " + std::to_string(stage);
-    discs.push_back({mix(birth_colour(stage), colours::paper, 0.25), std::move(words)});
+    discs.push_back({pale(birth_colour(stage)), std::move(words)});
   }
   return discs;
 }

@@ -164,7 +164,7 @@ Panel embryo_panel(const core::Embryo& embryo, std::span<const int> starts) {
   panel.draw = [embryo, points, of_birth](Canvas& canvas, double pixel) {
     const double line = std::max(0.05, 0.5 * pixel);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      canvas.fill_circle(points[i], cell_radius, mix(of_birth[i], colours::paper, 0.25));
+      canvas.fill_circle(points[i], cell_radius, pale(of_birth[i]));
       canvas.stroke_circle(points[i], cell_radius - line / 2, mix(of_birth[i], colours::ink, 0.35),
                            line);
     }
@@ -215,7 +215,7 @@ Panel body_panel(const core::Body& body, const BirthStages& born, std::optional<
                  bool ground) {
   const auto colour = [born](core::Index i) {
     const int stage = born.empty() ? 0 : born[static_cast<std::size_t>(i)];
-    return mix(birth_colour(stage), colours::paper, 0.25);
+    return pale(birth_colour(stage));
   };
   return resting_panel(body, {colour}, direction, ground);
 }
