@@ -5,27 +5,16 @@
 #   bash bench/study.sh FOLDER --plot       draws what is there, runs nothing
 # SEEDS, POPULATION, GENERATIONS and SEARCHES in the environment replace "1 2 3 4 5", 100, 60 and
 # "simple novelty progressive"; METAMORPH names another program than that of the release build.
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-metamorph=${METAMORPH:-$root/build/release/evolve/metamorph}
 folder=${1:?"usage: bash bench/study.sh FOLDER [--plot]"}
-[ -x "$metamorph" ] || { echo "$metamorph is missing: build it first (bash evolve/run.sh)" >&2; exit 1; }
+. "$(dirname "${BASH_SOURCE[0]}")/evolve_run.sh"
 mkdir -p "$folder/plots" || exit 1
-
-evolve() { # search, seed
-  local run=$folder/$1-$2
-  if [ -e "$run/run.db" ]; then
-    "$metamorph" evolve --resume "$run" --threads 1
-  else
-    "$metamorph" evolve "$root/evolve/experiments/water-to-land-$1.toml" --out "$run" --seed "$2" \
-      --population "${POPULATION:-100}" --generations "${GENERATIONS:-60}" --threads 1
-  fi
-}
 
 # Seed by seed, so that what is there at any time compares the searches.
 if [ "$2" != --plot ]; then
   for seed in ${SEEDS:-1 2 3 4 5}; do
     for search in ${SEARCHES:-simple novelty progressive}; do
-      evolve "$search" "$seed" </dev/null || exit
+      evolve_run "water-to-land-$search" "$seed" "$folder/$search-$seed" \
+        "${POPULATION:-100}" "${GENERATIONS:-60}" || exit
     done
   done
 fi

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "evolve/life/contacts.h"
+
 namespace metamorph::evolve {
 namespace {
 
-/// d above the ground at which a node still touches it: what rests there sways a little.
-constexpr double touching = 0.02;
 constexpr double shown_share = 0.99;  ///< of speeds: few are far above all others
 
 Colour period_colour(double period, const Scales& scales) {
@@ -50,16 +50,14 @@ Scales scales_of(std::span<const Life* const> lives) {
   return scales;
 }
 
-bool touches(const Motion& motion, int frame, std::size_t node) {
-  return motion.scene.ground && motion.track.y[static_cast<std::size_t>(frame)][node] < touching;
-}
-
 std::vector<Colour> node_colours(const Motion& motion, int frame, ColourKind kind,
                                  const Scales& scales) {
   const core::Body& body = motion.body;
   std::vector<Colour> colours(body.x.size());
   const std::vector<double> speeds =
       kind == ColourKind::speed ? speeds_at(motion.track, frame) : std::vector<double>();
+  const std::vector<Contact> contacts =
+      kind == ColourKind::contact ? contacts_of(motion, frame) : std::vector<Contact>();
   for (std::size_t i = 0; i < colours.size(); ++i) {
     switch (kind) {
       case ColourKind::area:
@@ -78,7 +76,7 @@ std::vector<Colour> node_colours(const Motion& motion, int frame, ColourKind kin
         colours[i] = pale(birth_colour(motion.born.empty() ? 0 : motion.born[i]));
         break;
       case ColourKind::contact:
-        colours[i] = contact_colour(touches(motion, frame, i));
+        colours[i] = contact_colour(contacts[i]);
         break;
     }
   }

@@ -16,7 +16,7 @@ enum class ColourKind {
   period,   ///< its period
   speed,    ///< how fast a node moves
   birth,    ///< the stage of life a cell was born in
-  contact,  ///< whether a node touches the ground
+  contact,  ///< what a node touches: the ground, its own body
 };
 
 /// What scales reach to, over all lives of a film.
@@ -26,9 +26,6 @@ struct Scales {
   int stages = 1;
 };
 Scales scales_of(std::span<const Life* const> lives);
-
-/// Whether a node touches the ground at a frame of a motion.
-bool touches(const Motion& motion, int frame, std::size_t node);
 
 /// Colours of a body's cells at a frame of its motion. Not of ColourKind::area, which belongs to
 /// triangles.

@@ -6,6 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "evolve/life/contacts.h"
+#include "evolve/view/mesh.h"
+
 namespace metamorph::evolve {
 namespace {
 
@@ -31,10 +34,6 @@ Lens lens_of(const Place& place, Point target, double scale) {
   return {target, {place.left + place.width / 2, place.top + place.height / 2}, scale};
 }
 
-const Point& at(const Points& points, int i) { return points[static_cast<std::size_t>(i)]; }
-
-Point middle_of(Point a, Point b) { return {(a.x + b.x) / 2, (a.y + b.y) / 2}; }
-
 Point between(Point a, Point b, double t) {
   return {std::lerp(a.x, b.x, t), std::lerp(a.y, b.y, t)};
 }
@@ -57,72 +56,29 @@ Points points_at(const Track& track, int frame, const View& view, const Lens& le
   return points;
 }
 
-/// Without a seam to its neighbours.
-void draw_tile(Canvas& canvas, std::span<const Point> corners, const Colour& colour) {
-  canvas.fill_polygon(corners, colour);
-  Points closed(corners.begin(), corners.end());
-  closed.push_back(corners.front());
-  canvas.stroke_line(closed, colour, 0.6);
-}
-
-double area_of(const Point& a, const Point& b, const Point& c) {
-  return 0.5 * std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
-}
-
-void draw_areas(Canvas& canvas, const core::Body& body, const Points& points, double scale) {
-  for (std::size_t t = 0; t < body.triangles.size(); ++t) {
-    const auto& [i, j, k] = body.triangles[t];
-    const std::array corners{at(points, i), at(points, j), at(points, k)};
-    const double ratio =
-        area_of(corners[0], corners[1], corners[2]) / (scale * scale * body.rest_area[t]);
-    draw_tile(canvas, corners, strain_colour(ratio));
-  }
-}
-
-/// Every triangle is shared out among its corners by its medians.
-void draw_shares(Canvas& canvas, const core::Body& body, const Points& points,
-                 const std::vector<Colour>& colours) {
-  const auto colour = [&](int i) { return colours[static_cast<std::size_t>(i)]; };
-  for (const auto& [i, j, k] : body.triangles) {
-    const Point a = at(points, i), b = at(points, j), c = at(points, k);
-    if (colour(i) == colour(j) && colour(j) == colour(k)) {
-      draw_tile(canvas, std::array{a, b, c}, colour(i));
-      continue;
-    }
-    const Point centre{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
-    draw_tile(canvas, std::array{a, middle_of(a, b), centre, middle_of(c, a)}, colour(i));
-    draw_tile(canvas, std::array{b, middle_of(b, c), centre, middle_of(a, b)}, colour(j));
-    draw_tile(canvas, std::array{c, middle_of(c, a), centre, middle_of(b, c)}, colour(k));
-  }
-}
-
 void draw_outline(Canvas& canvas, const std::vector<std::array<int, 2>>& edges,
                   const Points& points, const Colour& colour, double width) {
-  for (const auto& [i, j] : edges) {
-    canvas.stroke_line(std::array{at(points, i), at(points, j)}, colour, width);
-  }
+  canvas.stroke_lines(segments_of(edges, points), colour, width);
 }
 
 void draw_body(Canvas& canvas, const Actor& actor, std::size_t number, const Points& points,
                int frame, const LifeStyle& style) {
   const Motion& motion = actor.life.motions[number];
   if (style.colour == ColourKind::area) {
-    draw_areas(canvas, motion.body, points, style.scale);
+    fill_areas(canvas, motion.body, points, style.scale);
   } else {
-    draw_shares(canvas, motion.body, points,
-                node_colours(motion, frame, style.colour, style.scales));
+    fill_cells(canvas, motion.body, points,
+               node_colours(motion, frame, style.colour, style.scales));
   }
-  const Colour springs = faded(colours::ink, 0.25);
-  for (const auto& [i, j] : motion.body.springs) {
-    canvas.stroke_line(std::array{at(points, i), at(points, j)}, springs,
-                       std::max(0.04 * style.scale, 0.4));
-  }
+  canvas.stroke_lines(segments_of(motion.body.springs, points), faded(colours::ink, 0.25),
+                      std::max(0.04 * style.scale, 0.4));
   draw_outline(canvas, actor.edges[number], points, colours::ink,
                std::max(0.12 * style.scale, 0.9));
   if (style.colour != ColourKind::contact) return;
+  const std::vector<Contact> contacts = contacts_of(motion, frame);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!touches(motion, frame, i)) continue;
-    canvas.fill_circle(points[i], std::max(0.25 * style.scale, 2.0), contact_colour(true));
+    if (contacts[i] == Contact::none) continue;
+    canvas.fill_circle(points[i], std::max(0.25 * style.scale, 2.0), contact_colour(contacts[i]));
   }
 }
 
@@ -258,10 +214,8 @@ void draw_embryo(Canvas& canvas, const Place& place, const Actor& actor, int ste
               newborn ? mix(colours::paper, colours[i], 0.3 + 0.7 * age) : colours[i],
               cell_radius * style.scale * grown);
   }
-  for (const auto& [i, j] : embryo.links) {
-    canvas.stroke_line(std::array{at(points, i), at(points, j)}, faded(colours::ink, 0.5),
-                       std::max(0.045 * style.scale, 0.5));
-  }
+  canvas.stroke_lines(segments_of(embryo.links, points), faded(colours::ink, 0.5),
+                      std::max(0.045 * style.scale, 0.5));
 }
 
 Point sum_of(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }

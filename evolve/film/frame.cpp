@@ -159,7 +159,9 @@ double draw_legend(Canvas& canvas, double right, double base, ColourKind kind,
       discs = birth_discs(scales.stages);
       break;
     case ColourKind::contact:
-      discs = {{contact_colour(true), "touches the ground"}, {contact_colour(false), "does not"}};
+      discs = {{contact_colour(Contact::ground), "touches the ground"},
+               {contact_colour(Contact::itself), "itself"},
+               {contact_colour(Contact::none), "nothing"}};
       break;
   }
   double width = -20;

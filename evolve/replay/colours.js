@@ -3,8 +3,8 @@
 const rgb = (r, g, b) => `rgb(${round(255 * r)},${round(255 * g)},${round(255 * b)})`;
 const blend = (a, b, t) => a.map((v, i) => mix(v, b[i], t));
 const pale = (colour) => rgb(...blend(colour, WHITE, 0.25));
-const WHITE = [1, 1, 1], ON_ITSELF = [0.34, 0.25, 0.62];
-const { range: RANGE, birth: BIRTH, free: FREE, ground: ON_GROUND } = page.colours;
+const WHITE = [1, 1, 1];
+const { range: RANGE, birth: BIRTH, free: FREE, ground: ON_GROUND, itself: ON_ITSELF } = page.colours;
 const birthColour = (stage) => BIRTH[stage < BIRTH.length ? stage : 1 + (stage - 1) % (BIRTH.length - 1)];
 const pick = (colours, t) => colours[round(clamp(t, 0, 1) * (colours.length - 1))];
 const phaseColour = (phase) => pick(page.colours.phase, turn(phase));
@@ -13,7 +13,7 @@ const scaleColour = (t) => pick(page.colours.scale, t);
 const [STRAIN, PHASE, LINEAR] = ["strain", "phase", "scale"].map((name) => page.colours[name].map((c) => rgb(...c)));
 const turn = (phase) => { const t = phase / (2 * PI); return t - floor(t); };
 
-// Who touches the ground, or whose outline comes nearer to itself than it keeps from itself.
+// As contacts_of() of evolve/life/contacts.h.
 function contacts(motion, x, y) {
   const touch = new Int8Array(x.length);
   if (motion.gap > 0) {
@@ -26,11 +26,11 @@ function contacts(motion, x, y) {
           return hypot(dx - t * ex, dy - t * ey);
         };
         const now = gap(x, y);
-        if (now < motion.gap && now < 0.98 * gap(motion.x, motion.y)) touch[n] = touch[i] = touch[j] = 2;
+        if (now < motion.gap && now < page.squeezed * gap(motion.x, motion.y)) touch[n] = touch[i] = touch[j] = 2;
       }
     }
   }
-  if (motion.ground) y.forEach((v, i) => { if (v < 0.015) touch[i] = 1; });
+  if (motion.ground) y.forEach((v, i) => { if (v < page.reach) touch[i] = 1; });
   return touch;
 }
 

@@ -13,6 +13,7 @@
 
 #include "evolve/files/body_file.h"
 #include "evolve/files/genome_file.h"
+#include "evolve/life/contacts.h"
 #include "evolve/replay/base64.h"
 #include "evolve/replay/development_code.h"
 #include "evolve/replay/page_parts.h"
@@ -225,8 +226,9 @@ Json colours_json() {
       {"phase", scale_json(64, [](double t) { return phase_colour(2 * std::numbers::pi * t); })},
       {"scale", scale_json(48, sequential_colour)},
       {"birth", std::move(birth)},
-      {"ground", colour_json(contact_colour(true))},
-      {"free", colour_json(contact_colour(false))}};
+      {"ground", colour_json(contact_colour(Contact::ground))},
+      {"itself", colour_json(contact_colour(Contact::itself))},
+      {"free", colour_json(contact_colour(Contact::none))}};
 }
 
 std::string element(const std::string& id, const Json& json) {
@@ -275,6 +277,8 @@ void PageWriter::finish(const std::vector<RunInPage>& runs) {
                          {"period_step", period_step},
                          {"phase_step", phase_step},
                          {"paper_step", core::paper_step},
+                         {"reach", ground_reach},
+                         {"squeezed", squeezed},
                          {"colours", colours_json()},
                          {"runs", std::move(list)}}));
   write("<script type=\"module\">");

@@ -50,8 +50,16 @@ Colour sequential_colour(double t) {
   return mix(stops[piece], stops[piece + 1], place - static_cast<double>(piece));
 }
 
-Colour contact_colour(bool touches) {
-  return touches ? Colour{0.76, 0.34, 0.02} : Colour{0.86, 0.87, 0.88};
+Colour contact_colour(Contact contact) {
+  switch (contact) {
+    case Contact::ground:
+      return {0.76, 0.34, 0.02};
+    case Contact::itself:
+      return {0.34, 0.25, 0.62};
+    case Contact::none:
+      break;
+  }
+  return {0.86, 0.87, 0.88};
 }
 
 namespace {

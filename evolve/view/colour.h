@@ -44,8 +44,9 @@ Colour strain_colour(double area_ratio, double range = 0.4);
 /// too (cividis; Nunez, Anderton and Renslow 2018).
 Colour sequential_colour(double t);
 
-/// Dark orange where something is touched, light grey elsewhere.
-Colour contact_colour(bool touches);
+enum class Contact { none, ground, itself };
+/// Light grey, dark orange, violet.
+Colour contact_colour(Contact contact);
 
 /// Colour of a phase shift in radians (figure 9): cyclic, lightest at 5/6 pi, darkest at -pi/6.
 Colour phase_colour(double phase);

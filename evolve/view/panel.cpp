@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "evolve/view/mesh.h"
+
 namespace metamorph::evolve {
 namespace {
 
@@ -12,7 +14,6 @@ constexpr double body_margin = 0.25;
 
 Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
 Point operator*(double s, Point p) { return {s * p.x, s * p.y}; }
-Point middle(Point a, Point b) { return 0.5 * (a + b); }
 
 using Points = std::vector<Point>;
 using Segments = std::vector<std::array<Point, 2>>;
@@ -21,59 +22,6 @@ Points points_of(std::span<const double> x, std::span<const double> y) {
   Points points(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) points[i] = {x[i], y[i]};
   return points;
-}
-
-const Point& at(const Points& points, core::Index i) { return points[static_cast<std::size_t>(i)]; }
-
-double area(const std::array<Point, 3>& p) {
-  return 0.5 * ((p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y));
-}
-
-/// Tiles of a body by their colour, in the order in which colours come up.
-class Tiles {
- public:
-  void add(const Colour& colour, std::vector<Point> tile) {
-    const auto found = std::find_if(groups_.begin(), groups_.end(),
-                                    [&](const Group& group) { return group.colour == colour; });
-    Group& group = found == groups_.end() ? groups_.emplace_back(Group{colour, {}}) : *found;
-    group.tiles.push_back(std::move(tile));
-  }
-  void draw(Canvas& canvas) const {
-    for (const Group& group : groups_) canvas.fill_tiles(group.tiles, group.colour);
-  }
-
- private:
-  struct Group {
-    Colour colour;
-    std::vector<std::vector<Point>> tiles;
-  };
-  std::vector<Group> groups_;
-};
-
-// Every triangle is shared out among its corners by its medians, so that each cell shows its own
-// colour around its node.
-void draw_cells(Canvas& canvas, const core::Body& body, const Points& points,
-                const std::function<Colour(core::Index)>& colour) {
-  Tiles tiles;
-  for (const auto& [i, j, k] : body.triangles) {
-    const Point a = at(points, i), b = at(points, j), c = at(points, k);
-    if (colour(i) == colour(j) && colour(j) == colour(k)) {
-      tiles.add(colour(i), {a, b, c});
-      continue;
-    }
-    const Point centre = (1.0 / 3) * (a + b + c);
-    tiles.add(colour(i), {a, middle(a, b), centre, middle(c, a)});
-    tiles.add(colour(j), {b, middle(b, c), centre, middle(a, b)});
-    tiles.add(colour(k), {c, middle(c, a), centre, middle(b, c)});
-  }
-  tiles.draw(canvas);
-}
-
-Segments segments_of(const std::vector<std::array<core::Index, 2>>& edges, const Points& points) {
-  Segments segments;
-  segments.reserve(edges.size());
-  for (const auto& [i, j] : edges) segments.push_back({at(points, i), at(points, j)});
-  return segments;
 }
 
 void draw_mesh(Canvas& canvas, const core::Body& body, const Points& points, double pixel,
@@ -178,7 +126,7 @@ Panel embryo_panel(const core::Embryo& embryo, std::span<const int> starts) {
 namespace {
 
 struct CellStyle {
-  std::function<Colour(core::Index)> colour;
+  std::vector<Colour> colours;
   double springs = 0.5;  ///< opacity
   bool nodes = true;
 };
@@ -200,7 +148,7 @@ Panel resting_panel(const core::Body& body, const CellStyle& style, std::optiona
   const Box box = panel.box;
   panel.draw = [=](Canvas& canvas, double pixel) {
     if (ground) draw_ground(canvas, box, floor, pixel);
-    draw_cells(canvas, body, points, style.colour);
+    fill_cells(canvas, body, points, style.colours);
     Colour springs = colours::ink;
     springs.alpha = style.springs;
     draw_mesh(canvas, body, points, pixel, springs, style.nodes);
@@ -213,11 +161,9 @@ Panel resting_panel(const core::Body& body, const CellStyle& style, std::optiona
 
 Panel body_panel(const core::Body& body, const BirthStages& born, std::optional<Point> direction,
                  bool ground) {
-  const auto colour = [born](core::Index i) {
-    const int stage = born.empty() ? 0 : born[static_cast<std::size_t>(i)];
-    return pale(birth_colour(stage));
-  };
-  return resting_panel(body, {colour}, direction, ground);
+  std::vector<Colour> colours(body.x.size(), pale(birth_colour(0)));
+  for (std::size_t i = 0; i < born.size(); ++i) colours[i] = pale(birth_colour(born[i]));
+  return resting_panel(body, {colours}, direction, ground);
 }
 
 Panel motion_panel(const core::Body& body, std::span<const double> x, std::span<const double> y,
@@ -229,13 +175,7 @@ Panel motion_panel(const core::Body& body, std::span<const double> x, std::span<
   const Box box = panel.box;
   panel.draw = [=](Canvas& canvas, double pixel) {
     if (ground) draw_ground(canvas, box, 0, pixel);
-    Tiles tiles;
-    for (std::size_t t = 0; t < body.triangles.size(); ++t) {
-      const auto& [i, j, k] = body.triangles[t];
-      const std::array corners{at(points, i), at(points, j), at(points, k)};
-      tiles.add(strain_colour(area(corners) / body.rest_area[t]), {corners.begin(), corners.end()});
-    }
-    tiles.draw(canvas);
+    fill_areas(canvas, body, points);
     Colour springs = colours::ink;
     springs.alpha = 0.25;
     draw_mesh(canvas, body, points, pixel, springs, false);
@@ -244,10 +184,9 @@ Panel motion_panel(const core::Body& body, std::span<const double> x, std::span<
 }
 
 Panel phase_panel(const core::Body& body, std::optional<Point> direction, bool ground) {
-  const auto colour = [phase = body.phase](core::Index i) {
-    return phase_colour(phase[static_cast<std::size_t>(i)]);
-  };
-  return resting_panel(body, {colour, 0.3, false}, direction, ground);
+  std::vector<Colour> colours;
+  for (const double phase : body.phase) colours.push_back(phase_colour(phase));
+  return resting_panel(body, {colours, 0.3, false}, direction, ground);
 }
 
 }  // namespace metamorph::evolve

@@ -63,6 +63,12 @@ TEST(ColourVision, StagesOfBirthAreToldApart) {
   expect_told_apart(pairs_of("stages as drawn, and paper,", drawn));
 }
 
+TEST(ColourVision, ContactsAreToldApart) {
+  expect_told_apart(pairs_of("touches nothing, the ground, itself",
+                             {contact_colour(Contact::none), contact_colour(Contact::ground),
+                              contact_colour(Contact::itself)}));
+}
+
 TEST(ColourVision, PhasesAQuarterApartAreToldApart) {
   constexpr double quarter = std::numbers::pi / 2;
   for (int k = 0; k < 32; ++k) {
