@@ -16,6 +16,8 @@
 #include "evolve/files/output_file.h"
 #include "evolve/files/printable.h"
 #include "evolve/run/pictures.h"
+#include "evolve/study/field_of_run.h"
+#include "evolve/view/field.h"
 #include "evolve/view/motion.h"
 #include "metamorph/extraction.h"
 
@@ -131,7 +133,8 @@ Sheet sheet_of_body(const RenderOptions& options) {
   return sheet;
 }
 
-Sheet sheet_of_one(const RenderOptions& options) {
+/// Throws InputError unless there is one source, and no option that is of many.
+void check_one(const RenderOptions& options) {
   if (options.sources.size() > 1) {
     throw InputError(fmt::format("SOURCE: {} of them: expected one for --kind {} (zoo shows many)",
                                  options.sources.size(), options.kind));
@@ -145,6 +148,10 @@ Sheet sheet_of_one(const RenderOptions& options) {
           fmt::format("{}: not of --kind {}: expected zoo or history", name, options.kind));
     }
   }
+}
+
+Sheet sheet_of_one(const RenderOptions& options) {
+  check_one(options);
   const SourceKind kind = kind_of(options.source());
   check_options(kind, options.rules, options.generation >= 0 ? "--generation" : "");
   if (kind == SourceKind::body) return sheet_of_body(options);
@@ -173,12 +180,33 @@ Sheet sheet_of_many(const RenderOptions& options) {
   return history_of(zoo);
 }
 
+Field field_of(const RenderOptions& options) {
+  check_one(options);
+  const SourceKind kind = kind_of(options.source());
+  check_options(kind, options.rules, "");
+  if (kind != SourceKind::run) {
+    throw InputError(
+        fmt::format("{}: expected a run for --kind {}", options.source(), options.kind));
+  }
+  if (options.generation >= 0) {
+    throw InputError("--generation: not of --kind " + options.kind);
+  }
+  const RunReader run(options.source());
+  return options.kind == "map" ? map_of(run) : front_of(run);
+}
+
 void render(const RenderOptions& options) {
   if (!is_picture_file(options.out)) {
     throw InputError("--out: " + options.out + ": expected a name that ends in .svg, .png or .pdf");
   }
   const Overwrite overwrite = options.overwrite ? Overwrite::yes : Overwrite::no;
   check_writable(options.out, overwrite);
+  if (options.kind == "map" || options.kind == "front") {
+    const Field field = field_of(options);
+    write_file(options.out, draw_field(field, options.out, options.density), overwrite);
+    fmt::print("{}\n", printable(options.out));
+    return;
+  }
   const bool shows_many = options.kind == "zoo" || options.kind == "history";
   Sheet sheet = shows_many ? sheet_of_many(options) : sheet_of_one(options);
   sheet.density = options.density;
@@ -208,8 +236,11 @@ void add_render_command(CLI::App& app) {
           "steps (figures 4, 8); motion: one cycle (figures 3, 6), from the body as it is "
           "also where a trial displaces it; phase: phase shifts (figure 9); zoo: many animats "
           "and where they move (figures 5, 7), those of several sources, or the best of "
-          "some generations of a run; history: phase shifts of these (figure 19)")
-      ->check(one_of({"animat", "development", "motion", "phase", "zoo", "history"}))
+          "some generations of a run; history: phase shifts of these (figure 19); map: the elites "
+          "of a run of "
+          "map-elites along its two axes; front: whom nobody dominates in a run of nsga2")
+      ->check(
+          one_of({"animat", "development", "motion", "phase", "zoo", "history", "map", "front"}))
       ->option_text("KIND [animat]");
   command->add_option("--generation", options->generation, "Of a run: the best of this generation")
       ->check(integer_from(0, 100000000))

@@ -121,6 +121,11 @@ TEST_F(Render, DrawsManyChampionsOfRuns) {
   refused("run1 run2 --kind zoo --count 2", "--count: expected one run");
   refused("run1 run2 --kind animat", "2 of them: expected one for --kind animat");
   refused("run1 --kind motion --count 3", "--count: not of --kind motion");
+  refused("run1 --kind map", "expected a run of map-elites");
+  refused("run1 --kind front", "expected a run of nsga2");
+  refused("run1 run2 --kind map", "2 of them: expected one for --kind map");
+  refused("blob.json --kind front", "expected a run for --kind front");
+  refused("run1 --kind map --generation 1", "--generation: not of --kind map");
   refused("run1 --kind history --generation 1", "expected --generations");
   refused("run1 blob.json --kind zoo --generation 1", "expected a run, not a genome");
   refused("run1 blob.json --kind zoo --set development.max_cells=30", "not together with a run");
