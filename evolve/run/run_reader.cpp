@@ -165,7 +165,7 @@ SearchHealth RunReader::health() const {
 
 RecordedMap RunReader::elites() const {
   const Reading reading(*this);
-  return read_elites(*database_, *integrity_);
+  return read_elites(*database_, *integrity_, experiment());
 }
 
 std::vector<GenerationFitness> RunReader::fitness() const {

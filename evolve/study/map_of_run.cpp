@@ -1,11 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "evolve/files/input_error.h"
-#include "evolve/search/axes.h"
 #include "evolve/study/field_of_run.h"
 #include "metamorph/descriptors.h"
 
@@ -13,7 +11,7 @@ namespace metamorph::evolve {
 namespace {
 
 /// "adult: growth, cells / cells of the stage before"
-std::string title_of(const Axis& axis) {
+std::string title_of(const MapAxis& axis) {
   const std::size_t dot = axis.name.rfind('.');
   const std::string_view field = std::string_view(axis.name).substr(dot + 1);
   for (const DescriptorField& known : descriptor_fields) {
@@ -24,24 +22,12 @@ std::string title_of(const Axis& axis) {
   return axis.name + ", d";  // a position
 }
 
-/// [niches] Where the centres of a map without a grid stand.
-std::vector<Point> centres_of(const RunReader& run, int niches) {
-  std::vector<Point> centres(static_cast<std::size_t>(niches));
-  run.read("centroids", "niche, centre", [&](const TableRow& row) {
-    const auto centre = nlohmann::json::parse(row.text(1)).get<std::vector<double>>();
-    centres.at(static_cast<std::size_t>(row.integer(0))) = {centre.at(0), centre.at(1)};
-  });
-  return centres;
-}
-
-/// A niche of a grid, of which the second axis runs fastest.
-Field::Tile tile_of(int niche, const std::vector<Axis>& axes, const std::vector<int>& bins,
-                    const Colour& colour) {
-  const auto edge = [&](std::size_t a, int bin) {
-    return axes[a].low + (axes[a].high - axes[a].low) * bin / bins[a];
-  };
-  const int i = niche / bins[1], j = niche % bins[1];
-  return {edge(0, i), edge(1, j), edge(0, i + 1), edge(1, j + 1), colour};
+/// The niche of a grid around its centre.
+Field::Tile tile_around(const std::vector<double>& centre, const std::vector<MapAxis>& axes,
+                        const Colour& colour) {
+  const auto half = [&](std::size_t a) { return (axes[a].high - axes[a].low) / axes[a].bins / 2; };
+  return {centre[0] - half(0), centre[1] - half(1), centre[0] + half(0), centre[1] + half(1),
+          colour};
 }
 
 }  // namespace
@@ -49,8 +35,7 @@ Field::Tile tile_of(int niche, const std::vector<Axis>& axes, const std::vector<
 Field map_of(const RunReader& run) {
   const RecordedMap map = run.elites();
   const Experiment experiment = run.experiment();
-  const SearchSetup setup = search_setup_of(experiment, 1);
-  const std::vector<Axis> axes = axes_of(setup);
+  const std::vector<MapAxis>& axes = map.axes;
   if (axes.size() != 2) {
     throw InputError(
         fmt::format("{}: search.axes: {} of them: expected two for a map that can be drawn",
@@ -71,15 +56,12 @@ Field map_of(const RunReader& run) {
   field.high = {axes[0].high, axes[1].high};
   field.strip = {"0", "eq 6 of the elite, d", fmt::format("{:.1f}", best)};
   field.strip_colour = sequential_colour;
-  const bool is_grid = setup.settings.get<int>("niches") == 0;
-  const std::vector<int> bins = bins_of(setup);
-  const std::vector<Point> centres = is_grid ? std::vector<Point>() : centres_of(run, map.niches);
   for (const RecordedElite& elite : map.elites) {
     const Colour colour = sequential_colour(best > 0 ? elite.quality / best : 0);
-    if (is_grid) {
-      field.tiles.push_back(tile_of(elite.niche, axes, bins, colour));
+    if (axes[0].bins > 0) {
+      field.tiles.push_back(tile_around(elite.centre, axes, colour));
     } else {
-      field.points.push_back({{centres.at(static_cast<std::size_t>(elite.niche))}, colour});
+      field.points.push_back({{{elite.centre[0], elite.centre[1]}}, colour});
     }
   }
   return field;
