@@ -34,13 +34,17 @@ struct RenderOptions {
   int count = 0;                 ///< 0: was not given
   int columns = 0;               ///< 0: was not given
   std::string colours;           ///< of zoo; empty: was not given
-  int snapshots = 8;
-  std::vector<int> at;  ///< empty: six steps
+  int snapshots = 0;             ///< of motion; 0: was not given
+  std::vector<int> at;           ///< empty: six steps
   double density = 2;
   bool overwrite = false;
 
   const std::string& source() const { return sources.front(); }
 };
+
+int snapshots_of(const RenderOptions& options) {
+  return options.snapshots > 0 ? options.snapshots : 8;
+}
 
 std::vector<core::Embryo> embryos_of(const Subject& subject, const std::vector<int>& steps) {
   return embryos_of(subject.experiment, subject.genome, steps);
@@ -80,7 +84,7 @@ Sheet motion_of(const Subject& subject, const RenderOptions& options) {
         fmt::format("{}: the {} has no body that could move", options.source(), trial.name));
   }
   Sheet sheet = motion_of_body(extraction.body, subject.experiment.scene_of(trial),
-                               locomotion_of(subject.experiment), options.snapshots);
+                               locomotion_of(subject.experiment), snapshots_of(options));
   sheet.remark = fmt::format("{}: last cycle, scene {}, time in steps", trial.name, trial.scene);
   return sheet;
 }
@@ -119,7 +123,7 @@ Sheet sheet_of_body(const RenderOptions& options) {
   }
   if (options.kind == "motion") {
     const core::Scene scene = scene_of(experiment, options.rules);
-    sheet = motion_of_body(body, scene, locomotion_of(experiment), options.snapshots);
+    sheet = motion_of_body(body, scene, locomotion_of(experiment), snapshots_of(options));
     sheet.remark = fmt::format("last cycle, scene {}, time in steps", scene.name);
   } else if (options.kind == "phase") {
     sheet.legend = Legend::phase;
@@ -131,6 +135,17 @@ Sheet sheet_of_body(const RenderOptions& options) {
   }
   sheet.heading = stem_of(options.source());
   return sheet;
+}
+
+/// Throws InputError for an option that says nothing about this kind.
+void check_of_kind(const RenderOptions& options) {
+  const auto only = [&](const char* name, bool is_given, const std::string& kind) {
+    if (is_given && options.kind != kind) {
+      throw InputError(fmt::format("{}: not of --kind {}: expected {}", name, options.kind, kind));
+    }
+  };
+  only("--at", !options.at.empty(), "development");
+  only("--snapshots", options.snapshots > 0, "motion");
 }
 
 /// Throws InputError unless there is one source, and no option that is of many.
@@ -201,6 +216,7 @@ void render(const RenderOptions& options) {
   }
   const Overwrite overwrite = options.overwrite ? Overwrite::yes : Overwrite::no;
   check_writable(options.out, overwrite);
+  check_of_kind(options);
   if (options.kind == "map" || options.kind == "front") {
     const Field field = field_of(options);
     write_file(options.out, draw_field(field, options.out, options.density), overwrite);

@@ -121,6 +121,8 @@ TEST_F(Render, DrawsManyChampionsOfRuns) {
   refused("run1 run2 --kind zoo --count 2", "--count: expected one run");
   refused("run1 run2 --kind animat", "2 of them: expected one for --kind animat");
   refused("run1 --kind motion --count 3", "--count: not of --kind motion");
+  refused("run1 --kind zoo --at 100", "--at: not of --kind zoo: expected development");
+  refused("run1 --kind phase --snapshots 3", "--snapshots: not of --kind phase: expected motion");
   refused("run1 --kind map", "expected a run of map-elites");
   refused("run1 --kind front", "expected a run of nsga2");
   refused("run1 run2 --kind map", "2 of them: expected one for --kind map");
