@@ -35,6 +35,17 @@ bool is_complete(const EvaluatedCounts& evaluated, std::size_t trial, std::size_
 
 }  // namespace
 
+std::vector<bool> fully_evaluated(const Source& source) {
+  const EvaluatedCounts evaluated = evaluated_in(source);
+  std::vector<bool> fully(static_cast<std::size_t>(source.generations), true);
+  for (std::size_t g = 0; g < fully.size(); ++g) {
+    for (std::size_t t = 0; t < evaluated.size(); ++t) {
+      fully[g] = fully[g] && is_complete(evaluated, t, g);
+    }
+  }
+  return fully;
+}
+
 std::string titled(std::string name) {
   if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') {
     name[0] = static_cast<char>(name[0] - 'a' + 'A');
@@ -69,14 +80,12 @@ void Source::lacks(std::string_view what, std::string_view expected) const {
 std::vector<Measure> read_fitness(const Source& source) {
   Measure best{"best", "", "Best of the generation", "fitness (eq 6), d", source.unknown()};
   Measure mean{"mean", "", "Mean of the population", "fitness (eq 6), d", source.unknown()};
-  const EvaluatedCounts evaluated = evaluated_in(source);
+  const std::vector<bool> fully = fully_evaluated(source);
   source.run.read("generations", "generation, best_eq6, mean_eq6", [&](const TableRow& row) {
     const auto g = static_cast<std::size_t>(row.integer(0));
     if (g >= best.values.size()) return;
     best.values[g] = row.number(1);
-    bool complete = true;
-    for (std::size_t t = 0; t < evaluated.size(); ++t) complete &= is_complete(evaluated, t, g);
-    if (complete) mean.values[g] = row.number(2);
+    if (fully[g]) mean.values[g] = row.number(2);
   });
   return {best, mean};
 }

@@ -46,6 +46,10 @@ struct PlotKind {
 
 const std::vector<PlotKind>& plot_kinds();
 
+/// [generations] Whether every individual was evaluated in every trial: else there is no telling of
+/// eq 6 of all of them (progressive search spares trials).
+std::vector<bool> fully_evaluated(const Source& source);
+
 /// A name as the beginning of a title.
 std::string titled(std::string name);
 

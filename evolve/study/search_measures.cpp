@@ -91,6 +91,7 @@ std::vector<Measure> read_failures(const Source& source) {
     if (g >= generations || known == core::all_statuses.end()) return;
     ended[g][static_cast<std::size_t>(known - core::all_statuses.begin())] += row.number(2);
   });
+  const std::vector<bool> fully = fully_evaluated(source);
   for (std::size_t g = 0; g < generations; ++g) {
     double all = 0, no_body = 0, not_settled = 0, failed = 0;
     for (const core::Status status : core::all_statuses) {
@@ -100,7 +101,7 @@ std::vector<Measure> read_failures(const Source& source) {
       if (status == core::Status::not_settled) not_settled += count;
       if (core::is_failure(status)) failed += count;
     }
-    measures[0].values[g] = percent(dead[g], individuals[g]);
+    if (fully[g]) measures[0].values[g] = percent(dead[g], individuals[g]);
     measures[1].values[g] = percent(no_body, all);
     measures[2].values[g] = percent(not_settled, all);
     measures[3].values[g] = percent(failed, all);

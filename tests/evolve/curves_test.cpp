@@ -263,6 +263,9 @@ TEST_F(Curves, TellNoMeanWhereNotAllWereEvaluated) {
   EXPECT_TRUE(std::isnan(values.at("mean adult").at(0)));
   EXPECT_FALSE(std::isnan(values.at("mean adult").at(5)));
   EXPECT_TRUE(std::isnan(values_of(study({path("progressive", 1)}, "fitness")).at("mean ").at(0)));
+  const auto failures = values_of(study({path("progressive", 1)}, "failures"));
+  EXPECT_TRUE(std::isnan(failures.at("dead ").at(0)));
+  EXPECT_FALSE(std::isnan(failures.at("dead ").at(5)));
 }
 
 TEST_F(Curves, NeedWhatTheyShow) {
