@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# The runs and pictures of evolve/view/FIGURES.md (about two hours of one core; runs that are there
+# The runs and pictures of evolve/view/FIGURES.md (about an hour and a half of one core; runs that are there
 # already go on where they stopped):
 #   bash bench/figures.sh FOLDER              runs go to FOLDER, pictures to evolve/view/figures
 #   bash bench/figures.sh FOLDER --draw       draws from what is there, runs nothing
-# SEEDS, POPULATION and GENERATIONS in the environment replace "1 2 3 4", 60 and 60; METAMORPH
+# SEEDS, POPULATION and GENERATIONS in the environment replace "1 2 3", 60 and 60; METAMORPH
 # names another program than that of the release build.
 folder=${1:?"usage: bash bench/figures.sh FOLDER [--draw]"}
 . "$(dirname "${BASH_SOURCE[0]}")/evolve_run.sh"
@@ -12,7 +12,7 @@ figures=$root/evolve/view/figures
 
 # Seed by seed, so that what is there at any time can be compared.
 if [ "$2" != --draw ]; then
-  for seed in ${SEEDS:-1 2 3 4}; do
+  for seed in ${SEEDS:-1 2 3}; do
     for experiment in {water-to-land,land-to-water}-{simple,novelty,progressive} \
       amphibious-{600,1200} slope-{metamorphic,specialist-flat,specialist-slope}; do
       evolve_run "$experiment" "$seed" "$folder/$experiment-seed$seed" \
@@ -32,8 +32,8 @@ plot() { # picture, kind, its curves, experiments
 }
 
 set -e
-swims_first=$folder/water-to-land-simple-seed3
-walks_first=$folder/land-to-water-novelty-seed4
+swims_first=$folder/water-to-land-simple-seed2
+walks_first=$folder/land-to-water-simple-seed2
 climbs=$folder/slope-metamorphic-seed1
 
 draw 01-development.png render "$swims_first" --kind development --at 60,120,240,360,480,600 --density 0.9
