@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The runs and pictures of evolve/view/FIGURES.md (about an hour and a half of one core; runs that are there
+# The runs and pictures of evolve/view/FIGURES.md (about an hour and a quarter of one core; runs that are there
 # already go on where they stopped):
 #   bash bench/figures.sh FOLDER              runs go to FOLDER, pictures to evolve/view/figures
 #   bash bench/figures.sh FOLDER --draw       draws from what is there, runs nothing
