@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The runs and pictures of evolve/view/FIGURES.md (about an hour and a quarter of one core; runs that are there
-# already go on where they stopped):
+# The runs and pictures of evolve/view/FIGURES.md (about an hour and a quarter of one core; runs that
+# are there already go on where they stopped):
 #   bash bench/figures.sh FOLDER              runs go to FOLDER, pictures to evolve/view/figures
 #   bash bench/figures.sh FOLDER --draw       draws from what is there, runs nothing
 # SEEDS, POPULATION and GENERATIONS in the environment replace "1 2 3", 60 and 60; METAMORPH

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "evolve/life/contacts.h"
 #include "evolve/view/mesh.h"
 
 namespace metamorph::evolve {
@@ -64,21 +63,21 @@ void draw_outline(Canvas& canvas, const std::vector<std::array<int, 2>>& edges,
 void draw_body(Canvas& canvas, const Actor& actor, std::size_t number, const Points& points,
                int frame, const LifeStyle& style) {
   const Motion& motion = actor.life.motions[number];
+  std::vector<Colour> colours;
   if (style.colour == ColourKind::area) {
     fill_areas(canvas, motion.body, points, style.scale);
   } else {
-    fill_cells(canvas, motion.body, points,
-               node_colours(motion, frame, style.colour, style.scales));
+    colours = node_colours(motion, frame, style.colour, style.scales);
+    fill_cells(canvas, motion.body, points, colours);
   }
   canvas.stroke_lines(segments_of(motion.body.springs, points), faded(colours::ink, 0.25),
                       std::max(0.04 * style.scale, 0.4));
   draw_outline(canvas, actor.edges[number], points, colours::ink,
                std::max(0.12 * style.scale, 0.9));
   if (style.colour != ColourKind::contact) return;
-  const std::vector<Contact> contacts = contacts_of(motion, frame);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (contacts[i] == Contact::none) continue;
-    canvas.fill_circle(points[i], std::max(0.25 * style.scale, 2.0), contact_colour(contacts[i]));
+    if (colours[i] == contact_colour(Contact::none)) continue;
+    canvas.fill_circle(points[i], std::max(0.25 * style.scale, 2.0), colours[i]);
   }
 }
 

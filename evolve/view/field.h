@@ -15,8 +15,7 @@ struct Field {
     double left = 0, bottom = 0, right = 0, top = 0;
     Colour colour;
   };
-  /// Points that nobody dominates, with the border of what they dominate: `steps` falls from one to
-  /// the next.
+  /// With `steps` a border falls from each to the next, around all that they dominate.
   struct Points {
     std::vector<Point> points;
     Colour colour;
