@@ -2,7 +2,7 @@
 """Compares searches over several seeds: runs each, keeps what each generation was, prints and draws.
 
     python3 bench/search.py KEPT.csv FOLDER EXPERIMENT.toml POPULATION GENERATIONS SEEDS ARM...
-    python3 bench/search.py KEPT.csv [--plot CHART.svg] [--arms NAME,NAME...]
+    python3 bench/search.py KEPT.csv [--plot CHART.svg] [--arms NAME,NAME...] [--course GENERATION,...]
 
 The first form evolves one run per arm and seed in FOLDER, as bench/arms.py does, and adds one row
 per generation to KEPT.csv; what stands there already is not run again. The second form reads
@@ -10,6 +10,8 @@ KEPT.csv alone. Both print a Markdown table, per arm: the best eq 6 of a run, an
 generations the population's mean eq 6, the species, the share of dead children and of those that are
 better than both parents; medians over the seeds with quartiles. Against the first arm: A12, the chance
 that a run of the arm is above one of the first (ties count half), and p of the Mann-Whitney test.
+--course prints a second table, a row per run: its best eq 6 until each of these generations and until
+its last one, and the fewest species from the first of them on.
 """
 
 import argparse
@@ -27,7 +29,7 @@ LAST = 5  # generations that a run's end is a mean over
 
 
 def generations_of(folder):
-    """What each generation of a run was: rows without arm and seed."""
+    """What each generation of a run was: rows without arm and seed; None is not in the record."""
     with sqlite3.connect(f"file:{folder / 'run.db'}?mode=ro", uri=True) as record:
         tables = {name for name, in record.execute("SELECT name FROM sqlite_master")}
         species = (dict(record.execute("SELECT generation, species FROM populations"))
@@ -37,8 +39,8 @@ def generations_of(folder):
                   if "origins" in tables else {})
         dead = dict(record.execute(
             "SELECT generation, avg(eq6 = 0) FROM individuals GROUP BY generation"))
-        return [[generation, best, mean, species.get(generation, 0), dead[generation],
-                 better.get(generation, 0)] for generation, best, mean in record.execute(
+        return [[generation, best, mean, species.get(generation), dead[generation],
+                 better.get(generation)] for generation, best, mean in record.execute(
                      "SELECT generation, best_eq6, mean_eq6 FROM generations ORDER BY 1")]
 
 
@@ -49,7 +51,7 @@ def read_kept(kept):
         with kept.open(newline="") as file:
             for row in csv.DictReader(file):
                 runs.setdefault((row["arm"], row["seed"]), []).append(
-                    [float(row[field]) for field in FIELDS[2:]])
+                    [float(row[field]) if row[field] else None for field in FIELDS[2:]])
     return runs
 
 
@@ -71,14 +73,16 @@ def evolve(kept, folder, experiment, population, generations, seeds, given):
                 if is_new:
                     out.writerow(FIELDS)
                 for generation, *values in generations_of(job[0]):
-                    out.writerow([name, seed, generation] + [f"{value:.5g}" for value in values])
+                    out.writerow([name, seed, generation] +
+                                 ["" if value is None else f"{value:.5g}" for value in values])
 
 
 def end_of(rows):
-    """best of the run; mean, species, dead, better over its last generations."""
+    """best of the run; mean, species, dead, better over its last generations; None is not known."""
     last = rows[-LAST:]
     return [max(row[1] for row in rows)] + [
-        sum(row[field] for row in last) / len(last) for field in (2, 3, 4, 5)]
+        None if last[0][field] is None else sum(row[field] for row in last) / len(last)
+        for field in (2, 3, 4, 5)]
 
 
 def quartiles(values):
@@ -104,10 +108,14 @@ def print_table(by_arm):
           "|---|---|---|---|---|---|---|")
     first = None
     for arm, runs in by_arm.items():
-        ends = list(zip(*(end_of(rows) for rows in runs.values())))
+        ends = [[value for value in column if value is not None]
+                for column in zip(*(end_of(rows) for rows in runs.values()))]
         first = first or ends
         cells = []
         for n, values in enumerate(ends):
+            if not values:
+                cells.append("-")
+                continue
             median, low, high = quartiles(values)
             if n < 2:
                 cells.append(f"{median:.1f} ({low:.1f}-{high:.1f}){against(values, first[n])}")
@@ -116,6 +124,17 @@ def print_table(by_arm):
             else:
                 cells.append(f"{100 * median:.0f} % ({100 * low:.0f}-{100 * high:.0f})")
         print(f"| {arm} | {len(runs)} | {' | '.join(cells)} |")
+
+
+def print_course(by_arm, moments):
+    print("\n| arm | seed | " + " | ".join(f"best until {moment}" for moment in moments)
+          + " | best | fewest species |\n|" + "---|" * (len(moments) + 4))
+    for runs in by_arm.values():
+        for (arm, seed), rows in sorted(runs.items()):
+            cells = [f"{max(row[1] for row in rows if row[0] <= moment):.1f}" for moment in moments]
+            fewest = min(row[3] for row in rows if row[0] >= moments[0])
+            print(f"| {arm} | {seed} | {' | '.join(cells)} | {max(row[1] for row in rows):.1f} "
+                  f"| {fewest:.0f} |")
 
 
 def plot(by_arm, chart):
@@ -155,6 +174,7 @@ def main():
     parser.add_argument("run", nargs="*", metavar="FOLDER EXPERIMENT POPULATION GENERATIONS SEEDS ARM")
     parser.add_argument("--plot", type=Path)
     parser.add_argument("--arms", help="only these, in this order")
+    parser.add_argument("--course", type=lambda text: [int(part) for part in text.split(",")])
     given = parser.parse_args()
     if given.run:
         if len(given.run) < 6:
@@ -166,6 +186,8 @@ def main():
     if not all(by_arm.values()):
         sys.exit(f"{given.kept}: holds no arm {[n for n in names if not by_arm[n]]}")
     print_table(by_arm)
+    if given.course:
+        print_course(by_arm, given.course)
     if given.plot:
         plot(by_arm, given.plot)
 
