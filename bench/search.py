@@ -130,11 +130,11 @@ def print_course(by_arm, moments):
     print("\n| arm | seed | " + " | ".join(f"best until {moment}" for moment in moments)
           + " | best | fewest species |\n|" + "---|" * (len(moments) + 4))
     for runs in by_arm.values():
-        for (arm, seed), rows in sorted(runs.items()):
+        for (arm, seed), rows in sorted(runs.items(), key=lambda run: int(run[0][1])):
             cells = [f"{max(row[1] for row in rows if row[0] <= moment):.1f}" for moment in moments]
-            fewest = min(row[3] for row in rows if row[0] >= moments[0])
-            print(f"| {arm} | {seed} | {' | '.join(cells)} | {max(row[1] for row in rows):.1f} "
-                  f"| {fewest:.0f} |")
+            species = [row[3] for row in rows if row[0] >= moments[0] and row[3] is not None]
+            print(f"| {arm} | {seed} | {' | '.join(cells)} | {end_of(rows)[0]:.1f} "
+                  f"| {f'{min(species):.0f}' if species else '-'} |")
 
 
 def plot(by_arm, chart):
@@ -147,6 +147,8 @@ def plot(by_arm, chart):
               ("dead children, %", 4)]
     for axis, (title, field) in zip(axes.flat, panels):
         for arm, runs in by_arm.items():
+            if any(row[field] is None for rows in runs.values() for row in rows):
+                continue  # a search without species
             series = []
             for rows in runs.values():
                 values = [row[field] * (100 if field == 4 else 1) for row in rows]
