@@ -27,7 +27,6 @@ template <class T>
 struct Stopped {
   bool any = false;
   T fastest2 = 0;  ///< largest squared speed of what it touched
-  T change = 0;    ///< bound on the changes of any velocity, d per time unit
 };
 
 /// The least velocity at which a pair may separate, given its room and the velocity at which it
@@ -69,7 +68,6 @@ inline Stopped<T> stop_approaches(const Approach<T>* begin, const Approach<T>* e
     next[n].vx += std::fma(s.extrapolate_share, change_x, change_x);
     next[n].vy = grounded ? new_vy : next[n].vy + std::fma(s.extrapolate_share, change_y, change_y);
     stopped.fastest2 = std::max(stopped.fastest2, new_vx * new_vx + new_vy * new_vy);
-    stopped.change += std::abs(change_x) + std::abs(change_y);
   };
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     bool acted = false;

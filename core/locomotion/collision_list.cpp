@@ -155,11 +155,13 @@ void CollisionList<T>::measure(const kernels::NodeRecord<T>* records, T reach) {
   }
 }
 
+/// The blocks hold all pairs that a list made of them needs, one that holds until something has
+/// moved by `limit` at least.
 template <class T>
-void CollisionList<T>::renew_blocks(const kernels::NodeRecord<T>* records) {
-  // The blocks must hold all pairs that a list made of them needs.
-  block_watch_.mark(records, static_cast<T>((wide_skin - narrow_skin) / 2));
-  measure(records, gap_ + static_cast<T>(wide_skin * room));
+void CollisionList<T>::renew_blocks(const kernels::NodeRecord<T>* records, T limit) {
+  const T half_skin = static_cast<T>((wide_skin - narrow_skin) / 2) + limit;
+  block_watch_.mark(records, half_skin);
+  measure(records, gap_ + 2 * half_skin * static_cast<T>(room));
   wide_end_ = kernels::copy_circled(all_.data(), all_.data() + all_.size(), circles_.data(),
                                     x_.data(), y_.data(), wide_.data());
 }
@@ -216,33 +218,16 @@ void CollisionList<T>::add(std::uint32_t node, std::uint32_t first, std::uint32_
 
 template <class T>
 kernels::CollisionPairs<T> CollisionList<T>::pairs(const kernels::NodeRecord<T>* records,
-                                                   const T* weight) {
-  if (!pair_watch_.holds(records, weight)) {
-    if (!block_watch_.holds(records, weight)) renew_blocks(records);
-    renew_pairs(records, static_cast<T>(narrow_skin / 2));
+                                                   const T* weight, T reach) {
+  // What each of a pair must be watched for beyond the gap.
+  const T beyond = std::max(reach / 2 - spare_, T(0));
+  if (!pair_watch_.holds(records, weight, -beyond)) {
+    const T limit = static_cast<T>(narrow_skin / 2) + beyond;
+    if (!block_watch_.holds(records, weight, -limit)) renew_blocks(records, limit);
+    renew_pairs(records, limit);
   }
   return {static_cast<int>(count_), pair_node_.data(), pair_first_.data(), pair_second_.data(),
           pair_threshold_.data()};
-}
-
-template <class T>
-bool CollisionList<T>::held(const kernels::NodeRecord<T>* now, const kernels::NodeRecord<T>* next,
-                            const T* weight) {
-  if (pair_watch_.holds(next, weight, spare_)) return true;
-  // Anew from where the step began. One that is longer than half a skin has the wider a skin.
-  T longest2 = 0;
-  for (std::size_t n = 0; n < nodes_.size(); ++n) {
-    const T dx = next[n].x - now[n].x, dy = next[n].y - now[n].y;
-    longest2 = std::max(longest2, dx * dx + dy * dy);
-  }
-  const kernels::Lanes<T> way(std::sqrt(longest2) * static_cast<T>(room));
-  // Beyond the way, so that a look from where the step began does not forget it.
-  const T limit = std::max(way[0] * static_cast<T>(room), static_cast<T>(narrow_skin / 2));
-  renew_blocks(now);
-  renew_pairs(now, limit);
-  block_watch_.advance(way);
-  pair_watch_.advance(way);
-  return false;
 }
 
 template class CollisionList<float>;

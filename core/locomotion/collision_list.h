@@ -12,7 +12,7 @@
 namespace metamorph::core {
 
 /// Pairs of self-collision for one running animat: every pair of an outline node and an outline
-/// edge of which it is no end that could come within the gap before anything has moved by half a
+/// edge of which it is no end that could come within reach before anything has moved by half a
 /// skin; and, for ever, the corners of triangles without pressure against their opposite sides,
 /// which nothing else keeps from turning over. Renewed only when something has moved so far, so
 /// that it costs little while nothing is near, and never misses a pair.
@@ -25,8 +25,10 @@ class CollisionList {
   void reset(const Body& body, const Scene& scene, const BodyBatch<T>& batch, std::size_t i);
 
   /// The pairs to test at the records' positions, by edge, then node of the body; renews the list
-  /// if it is stale. `weight`: 1, or 0 in idle lanes.
-  kernels::CollisionPairs<T> pairs(const kernels::NodeRecord<T>* records, const T* weight);
+  /// if it is stale. No pair is missed that is nearer than its threshold, or than its least gap and
+  /// `reach`; which others are listed depends on when the list was renewed. `weight`: 1, or 0 in
+  /// idle lanes.
+  kernels::CollisionPairs<T> pairs(const kernels::NodeRecord<T>* records, const T* weight, T reach);
 
   /// Says that every node has moved for a time h, at no more than the speed whose square is in its
   /// lane of `speed2`. Must be told of all motion.
@@ -35,11 +37,6 @@ class CollisionList {
     block_watch_.advance(way);
     pair_watch_.advance(way);
   }
-
-  /// True if no pair beyond the list has come within its least gap between `now`, where the list
-  /// holds, and `next`, where advance() was told that the nodes go. Else the list is renewed, at
-  /// `now`, so that this is so.
-  bool held(const kernels::NodeRecord<T>* now, const kernels::NodeRecord<T>* next, const T* weight);
 
   /// Groups of nodes that are in a pair: those of the outline, or all.
   int groups() const { return groups_; }
@@ -65,7 +62,7 @@ class CollisionList {
   void find_close_at_rest(const Body& body, std::span<const Edge> edges);
   void find_lasting(const Body& body, const Scene& scene, std::span<const Index> node_of_lane);
   void measure(const kernels::NodeRecord<T>* records, T reach);
-  void renew_blocks(const kernels::NodeRecord<T>* records);
+  void renew_blocks(const kernels::NodeRecord<T>* records, T limit);
   void renew_pairs(const kernels::NodeRecord<T>* records, T limit);
   kernels::CollisionBlock& block(std::size_t edge, std::size_t place) {
     return all_[(edge * node_.size() + place) / width];
@@ -76,7 +73,7 @@ class CollisionList {
   void append(std::uint32_t node, std::uint32_t first, std::uint32_t second, T threshold);
 
   T gap_ = 0;
-  T spare_ = 0;  ///< half of what the gap exceeds the least by: what each of a pair may use up
+  T spare_ = 0;  ///< half of what the gap exceeds the least by
   int groups_ = 0;
   std::span<const Index> nodes_;  ///< of the outline's lanes
   std::size_t edges_ = 0;

@@ -73,9 +73,9 @@ void Runner<T>::step(std::uint64_t n) {
       std::fill(fx.begin(), fx.begin() + lanes, T(0));
       std::fill(fy.begin(), fy.begin() + lanes, T(0));
     }
-    pairs_ = collisions_.pairs(state_.now, shape_.inverse_mass);
     // Speeds change little in a few steps: hardly ever has to be looked again.
     if (n % speed_interval == 0) expect_speed(std::sqrt(largest(fastest2_)));
+    list_pairs();
     const kernels::PairCounts found =
         meet(static_cast<T>(scene_->collision_stiffness), fx.data(), fy.data());
     near_ = found.near;
@@ -87,7 +87,10 @@ void Runner<T>::step(std::uint64_t n) {
   step_function<T>(terms)(shape_, state_, coefficients_, static_cast<kernels::Turn<T>>(n),
                           extremes_);
   fastest2_ = extremes_.largest_speed2;
-  if (scene_->self_collision && stop()) fastest2_ = speeds2();
+  if (scene_->self_collision) {
+    if (stop()) fastest2_ = speeds2();
+    collisions_.advance(fastest2_, coefficients_.step);
+  }
   extremes_.largest_speed2 = kernels::max(fastest2_, before);
   std::swap(state_.now, state_.next);
 }
@@ -97,6 +100,11 @@ template <class T>
 void Runner<T>::expect_speed(T speed) {
   expected_ = T(1.25) * speed + T(0.05);
   reach_ = 2 * coefficients_.step * expected_;
+}
+
+template <class T>
+void Runner<T>::list_pairs() {
+  pairs_ = collisions_.pairs(state_.now, shape_.inverse_mass, reach_);
 }
 
 /// Finds the pairs within `reach_`, and adds their penalty.
@@ -115,15 +123,12 @@ bool Runner<T>::stop() {
   const kernels::StopStep<T> stop_step{
       coefficients_.step, T(1) / coefficients_.step, coefficients_.extrapolate / coefficients_.step,
       terms_of(*scene_, actuation_).ground, coefficients_.friction};
-  Pack speed2 = fastest2_, moved2 = fastest2_;
+  Pack speed2 = fastest2_;
   for (int round = 0; round < most_rounds; ++round) {
-    // What was pushed may be faster than all before, or elsewhere: then more may be near.
-    collisions_.advance(moved2, coefficients_.step);
-    const bool held = collisions_.held(state_.now, state_.next, shape_.inverse_mass);
-    const bool expected = kernels::all(speed2 < Pack(expected_ * expected_));
-    if (!held) pairs_ = collisions_.pairs(state_.now, shape_.inverse_mass);
-    if (!expected) expect_speed(std::sqrt(largest(speed2)));
-    if (!held || !expected) {
+    // What was pushed may be faster than all before: then more may be near.
+    if (!kernels::all(speed2 < Pack(expected_ * expected_))) {
+      expect_speed(std::sqrt(largest(speed2)));
+      list_pairs();
       near_ = meet(T(0), buffers_.extra_fx.data(), buffers_.extra_fy.data()).near;
     } else if (round > 0) {
       return true;
@@ -133,7 +138,6 @@ bool Runner<T>::stop() {
         begin, begin + near_, stop_step, state_.now, state_.next, state_.vx, state_.vy);
     if (!stopped.any) return round > 0;
     speed2 = Pack(stopped.fastest2);
-    moved2 = Pack(stopped.change * stopped.change);
   }
   return true;
 }

@@ -34,6 +34,7 @@ class Runner {
   void end_settling();
   void step(std::uint64_t n);
   void expect_speed(T speed);
+  void list_pairs();
   kernels::PairCounts meet(T stiffness, T* fx, T* fy);
   bool stop();
   kernels::Lanes<T> speeds2() const;

@@ -54,19 +54,18 @@ class Watched {
   template <class Motion>
   void move(Motion&& to) {
     step(to);
-    std::swap(state_.now, state_.next);
+    end_step();
   }
 
-  /// The same, then asks the list about the way there, as what stops approaches does. Returns how
-  /// many pairs come within their least gap on it, all of which must be listed.
+  /// The same, with a list that reaches as far as two nodes of the step can come, as what stops
+  /// approaches asks for. Returns how many pairs come within their least gap on the way, all of
+  /// which must be listed.
   template <class Motion>
-  int move_and_hold(Motion&& to) {
-    check();
-    std::vector<Pair> held = list();
-    step(to);
-    if (!list_.held(state_.now, state_.next, shape_.inverse_mass)) held = list();
+  int move_within_reach(Motion&& to) {
+    const double reach = 2 * step(to);
+    check(reach);
     std::set<std::array<std::uint32_t, 3>> listed;
-    for (const Pair& pair : held) listed.insert(pair.lanes);
+    for (const Pair& pair : list(reach)) listed.insert(pair.lanes);
     int met = 0;
     const double doubt = this->doubt();
     for (const Pair& pair : pairs_) {
@@ -76,7 +75,7 @@ class Watched {
       ++met;
       EXPECT_EQ(listed.count(pair.lanes), 1u) << "missed, gap " << gap << " on the way";
     }
-    std::swap(state_.now, state_.next);
+    end_step();
     check();
     return met;
   }
@@ -101,28 +100,30 @@ class Watched {
     return point.gap;
   }
 
-  /// The same in one step asked about on its way. Returns how far apart they were.
+  /// The same in one step with a list that reaches so far. Returns how far apart they were.
   double rush_in(const Pair& pair, double way) {
     const auto point = closest_point(pair, 0);
     if (point.gap < 2 * way + 1) return 0;
-    move_and_hold(towards_each_other(pair, point, way));
+    move_within_reach(towards_each_other(pair, point, way));
     return point.gap;
   }
 
   const std::vector<Pair>& pairs() const { return pairs_; }
 
   /// Checks the list against brute force; returns how many pairs touch.
-  int check() {
-    const std::vector<Pair> listed = list();
+  int check(double reach = 0) {
+    const std::vector<Pair> listed = list(reach);
     const double doubt = this->doubt();
     int touching = 0;
     std::size_t at = 0;  // in the list, whose order is that of solid_pairs()
     for (const Pair& pair : pairs_) {
-      const double gap = gap_at(pair, 0);
+      const double least = std::min(scene_.collision_least_gap, pair.threshold / 2);
+      const double far = std::max(pair.threshold, least + reach);
+      const double gap = gap_at(pair, 0, far);
       if (at < listed.size() && listed[at].lanes == pair.lanes) {
         EXPECT_NEAR(listed[at].threshold, pair.threshold, doubt);
         ++at;
-      } else if (gap <= pair.threshold - doubt) {
+      } else if (gap <= far - doubt) {
         ADD_FAILURE() << "missed edge " << pair.lanes[0] << " " << pair.lanes[1] << ", node "
                       << pair.lanes[2] << ", gap " << gap;
       }
@@ -136,12 +137,12 @@ class Watched {
   std::size_t listed() { return list().size(); }
 
  private:
-  /// From now to next.
+  /// From now to next; returns the longest way of a node.
   template <class Motion>
-  void step(Motion&& to) {
-    constexpr int width = kernels::Lanes<T>::width;
-    std::array<T, width> speed2{};
-    const T h = T(0.25);
+  double step(Motion&& to) {
+    const T h = time_;
+    speed2_.fill(T(0));
+    T fastest2 = 0;
     for (int l = 0; l < shape_.nodes; ++l) {
       const kernels::NodeRecord<T> record = state_.now[l];
       const double from_x = static_cast<double>(record.x), from_y = static_cast<double>(record.y);
@@ -150,15 +151,21 @@ class Watched {
       state_.next[l] = record;
       state_.next[l].x = std::fma(h, vx, record.x);
       state_.next[l].y = std::fma(h, vy, record.y);
-      T& most = speed2[static_cast<std::size_t>(l % width)];
+      T& most = speed2_[static_cast<std::size_t>(l) % speed2_.size()];
       most = std::max(most, vx * vx + vy * vy);
+      fastest2 = std::max(fastest2, most);
     }
-    alignas(64) std::array<T, width> aligned = speed2;
-    list_.advance(kernels::Lanes<T>::load(aligned.data()), h);
+    return static_cast<double>(h * std::sqrt(fastest2));
   }
 
-  std::vector<Pair> list() {
-    const kernels::CollisionPairs<T> pairs = list_.pairs(state_.now, shape_.inverse_mass);
+  void end_step() {
+    list_.advance(kernels::Lanes<T>::load(speed2_.data()), time_);
+    std::swap(state_.now, state_.next);
+  }
+
+  std::vector<Pair> list(double reach = 0) {
+    const kernels::CollisionPairs<T> pairs =
+        list_.pairs(state_.now, shape_.inverse_mass, static_cast<T>(reach));
     EXPECT_EQ(pairs.count % kernels::Lanes<T>::width, 0);
     std::vector<Pair> listed;
     for (int i = 0; i < pairs.count; ++i) {
@@ -184,8 +191,8 @@ class Watched {
     }
     return kernels::reference::closest_point(2, {0, 1}, x, y);
   }
-  double gap_at(const Pair& pair, double share) const {
-    // Mostly they are far apart, and how far at least is enough to know.
+  /// Of pairs that are farther apart than `far` now how far at least.
+  double gap_at(const Pair& pair, double share, double far = 1) const {
     if (share == 0) {
       const auto record = [&](std::size_t k) { return state_.now[pair.lanes[k]]; };
       const auto apart = [](const auto& a, const auto& b) {
@@ -193,7 +200,7 @@ class Watched {
         return std::sqrt(x * x + y * y);
       };
       const double least = apart(record(0), record(2)) - apart(record(0), record(1));
-      if (least > 1) return least;
+      if (least > far) return least;
     }
     return closest_point(pair, share).gap;
   }
@@ -215,6 +222,8 @@ class Watched {
   StateBuffers<T> buffers_;
   kernels::BodyShape<T> shape_{};
   kernels::BodyState<T> state_{};
+  static constexpr T time_ = T(0.25);  ///< of a step
+  alignas(64) std::array<T, kernels::Lanes<T>::width> speed2_{};
   CollisionList<T> list_;
   std::vector<Pair> pairs_;  // all there are
 };
@@ -318,7 +327,7 @@ void rush() {
     // Nearly always slow, so that the list has been made for slow ones.
     const double pace = random.uniform() < 0.7 ? 0.02 : 0.1 + 0.9 * random.uniform();
     const auto draw = [&] { return pace * random.triangular(); };
-    body.move_and_hold([&](int, double x, double y) { return std::pair{x + draw(), y + draw()}; });
+    body.move_within_reach([&](int, double x, double y) { return std::pair{x + draw(), y + draw()}; });
   }
   RC_ASSERT(!::testing::Test::HasFailure());
 }
@@ -349,7 +358,7 @@ TEST(CollisionList, HoldsWhatPassesThroughInOneStep) {
   for (int n = 0; n < 15; ++n)
     body.move([](int, double x, double y) { return std::pair{x, 0.95 * y}; });
   const int touching = body.check();
-  const int met = body.move_and_hold([](int, double x, double y) {
+  const int met = body.move_within_reach([](int, double x, double y) {
     return std::pair{x, std::abs(y) < 2 ? y - std::copysign(1.3, y) : y};
   });
   EXPECT_GT(met, touching + 4);

@@ -234,7 +234,7 @@ void expect_agreement(double round_off) {
 TEST(FastStop, AgreesWithThePlainOneInDouble) { expect_agreement<double>(round_off_64); }
 TEST(FastStop, AgreesWithThePlainOneInFloat) { expect_agreement<float>(round_off_32); }
 
-TEST(FastStop, LeadsRecordsWhereTheNewVelocitiesDoAndBoundsWhatItChanged) {
+TEST(FastStop, LeadsRecordsWhereTheNewVelocitiesDoAndBoundsTheSpeedOfWhatItTouched) {
   evolve::RandomStream random(evolve::Purpose::test, 1, 0, 9);
   int acted = 0;
   for (int i = 0; i < 200; ++i) {
@@ -254,7 +254,6 @@ TEST(FastStop, LeadsRecordsWhereTheNewVelocitiesDoAndBoundsWhatItChanged) {
       EXPECT_TRUE(within(fast.next[n].vy - before.vy[n] - 1.5 * dy, rounding));
     }
     EXPECT_EQ(fast.stopped.any, change > 0);
-    EXPECT_GE(fast.stopped.change * (1 + 64 * round_off_64), change);
     EXPECT_GE(fast.stopped.fastest2 * (1 + 64 * round_off_64), fastest * fastest);
     acted += fast.stopped.any;
   }
