@@ -36,8 +36,8 @@ class HardwareGather {
   }
   static kernels::Lanes<T> gather(const T* from, const std::uint32_t* offset) {
     using Pack = kernels::Lanes<T>;
-#if defined(__AVX512F__)
     // Masked with all lanes on: GCC 12 warns of its own unmasked gathers.
+#if defined(__AVX512F__)
     if constexpr (sizeof(T) == 4) {
       return Pack(_mm512_mask_i32gather_ps(_mm512_setzero_ps(), __mmask16(-1),
                                            _mm512_load_si512(offset), from, 1));
@@ -48,10 +48,12 @@ class HardwareGather {
 #elif defined(__AVX2__)
     if constexpr (sizeof(T) == 4) {
       const __m256i index = _mm256_load_si256(reinterpret_cast<const __m256i*>(offset));
-      return Pack(_mm256_i32gather_ps(from, index, 1));
+      const __m256 all = _mm256_castsi256_ps(_mm256_set1_epi32(-1));
+      return Pack(_mm256_mask_i32gather_ps(_mm256_setzero_ps(), from, index, all, 1));
     } else {
       const __m128i index = _mm_load_si128(reinterpret_cast<const __m128i*>(offset));
-      return Pack(_mm256_i32gather_pd(from, index, 1));
+      const __m256d all = _mm256_castsi256_pd(_mm256_set1_epi32(-1));
+      return Pack(_mm256_mask_i32gather_pd(_mm256_setzero_pd(), from, index, all, 1));
     }
 #else
     Pack pack;

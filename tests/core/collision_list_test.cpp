@@ -327,7 +327,8 @@ void rush() {
     // Nearly always slow, so that the list has been made for slow ones.
     const double pace = random.uniform() < 0.7 ? 0.02 : 0.1 + 0.9 * random.uniform();
     const auto draw = [&] { return pace * random.triangular(); };
-    body.move_within_reach([&](int, double x, double y) { return std::pair{x + draw(), y + draw()}; });
+    body.move_within_reach(
+        [&](int, double x, double y) { return std::pair{x + draw(), y + draw()}; });
   }
   RC_ASSERT(!::testing::Test::HasFailure());
 }
