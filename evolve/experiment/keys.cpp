@@ -14,8 +14,6 @@
 namespace metamorph::evolve {
 namespace {
 
-constexpr double no_limit = 1e9;  ///< upper end of ranges that have no natural one
-
 /// The names of a catalogue of signals; the field holds those chosen, in the catalogue's order, so
 /// that the order in which they are written decides nothing.
 template <class Signal, std::size_t Count>

@@ -14,7 +14,6 @@ namespace {
 using Names = std::vector<std::string>;
 using Numbers = std::vector<double>;
 
-constexpr double no_limit = 1e9;  // upper end of ranges that have no natural one
 constexpr double most_niches = 1e6;
 
 std::size_t index_of(const std::string& name, const Problem& problem) {

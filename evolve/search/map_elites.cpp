@@ -17,8 +17,7 @@
 namespace metamorph::evolve {
 namespace {
 
-constexpr Table::Type integer = Table::Type::integer, real = Table::Type::real,
-                      text = Table::Type::text;
+using enum Table::Type;
 
 /// Every entry into a niche: its last row is who holds it. descriptors: JSON list of all of the
 /// problem; genome: JSON as in checkpoints. Numbers read back to the same bits.

@@ -114,8 +114,7 @@ void update_archive(const NoveltySettings& settings, NoveltyState& state,
 
 namespace {
 
-constexpr Table::Type integer = Table::Type::integer, real = Table::Type::real,
-                      text = Table::Type::text;
+using enum Table::Type;
 
 /// behaviour: JSON list of the descriptors; numbers read back to the same bits.
 const Table archive_table = {"archive",
@@ -304,7 +303,6 @@ std::vector<Contradiction> contradictions(const SearchSetup& setup) {
 
 SearchKind novelty_search() {
   const NoveltySettings d;
-  constexpr double no_limit = 1e9;  // upper end of ranges that have no natural one
   return {
       "novelty",
       "the distance to the nearest behaviours there were (eq 8)",

@@ -12,7 +12,7 @@
 namespace metamorph::evolve {
 namespace {
 
-constexpr Table::Type integer = Table::Type::integer, real = Table::Type::real;
+using enum Table::Type;
 
 /// A column per objective, "objective_larva". Names of columns do not tell capitals from small
 /// letters, those of trials do: the second of two such has its number behind it.

@@ -18,8 +18,7 @@ SearchKind novelty_search();
 
 namespace {
 
-constexpr Table::Type integer = Table::Type::integer, real = Table::Type::real,
-                      text = Table::Type::text;
+using enum Table::Type;
 
 /// behaviour: JSON list of the positions along the axes, 0 to 1 from end to end; numbers read back
 /// to the same bits.

@@ -8,16 +8,16 @@
 namespace metamorph::evolve {
 
 Table origins_table(bool entered) {
-  using Type = Table::Type;
+  using enum Table::Type;
   Table table = {"origins",
-                 {{"generation", Type::integer},
-                  {"origin", Type::text},
-                  {"crossed", Type::integer},
-                  {"children", Type::integer},
-                  {"better", Type::integer},
-                  {"dead", Type::integer}},
+                 {{"generation", integer},
+                  {"origin", text},
+                  {"crossed", integer},
+                  {"children", integer},
+                  {"better", integer},
+                  {"dead", integer}},
                  3};
-  if (entered) table.columns.insert(table.columns.end() - 1, {"entered", Type::integer});
+  if (entered) table.columns.insert(table.columns.end() - 1, {"entered", integer});
   return table;
 }
 

@@ -15,8 +15,6 @@
 namespace metamorph::evolve {
 namespace {
 
-constexpr double no_limit = 1e9;
-
 std::string range_text(double low, double high) {
   return high >= no_limit ? fmt::format("at least {}", low)
                           : fmt::format("from {} to {}", low, high);

@@ -57,6 +57,9 @@ struct NeatSettings {
   int stages = 1;  ///< of life; no key: the problem says it
 };
 
+/// Upper end of the ranges of settings that have no natural one.
+inline constexpr double no_limit = 1e9;
+
 /// One setting of NEAT.
 struct NeatField {
   std::string_view name;  ///< of the member, and of the key that sets it in experiments
@@ -69,7 +72,6 @@ struct NeatField {
 /// The one list of them: keys of experiments, their check, and the paper's values.
 inline constexpr std::array neat_fields = [] {
   using N = NeatSettings;
-  constexpr double no_limit = 1e9;  // upper end of ranges that have no natural one
   return std::array{
       NeatField{"population", &N::population, 300, 1, 1e6, "individuals per generation"},
       NeatField{"hidden_nodes", &N::hidden_nodes, 8, 0, 1e4, "hidden nodes of the first genomes"},
