@@ -110,7 +110,11 @@ void print_json(const RunReader& run, const Experiment& experiment) {
 
 /// How a trial's starts count, where they are not one body as it is.
 std::string starts_text(const Trial& trial) {
-  if (trial.starts == 1 && !trial.starts_renew) return "";
+  if (trial.starts == 1) {
+    if (!trial.starts_renew) return "";
+    return fmt::format(", a start within {} d, another one in every generation",
+                       trial.start_displacement);
+  }
   return fmt::format(", {} of {} starts within {} d{}", name(trial.starts_combine), trial.starts,
                      trial.start_displacement,
                      trial.starts_renew ? ", other ones in every generation" : "");
