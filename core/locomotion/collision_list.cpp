@@ -221,9 +221,9 @@ kernels::CollisionPairs<T> CollisionList<T>::pairs(const kernels::NodeRecord<T>*
                                                    const T* weight, T reach) {
   // What each of a pair must be watched for beyond the gap.
   const T beyond = std::max(reach / 2 - spare_, T(0));
-  if (!pair_watch_.holds(records, weight, -beyond)) {
+  if (!pair_watch_.holds(records, weight, beyond)) {
     const T limit = static_cast<T>(narrow_skin / 2) + beyond;
-    if (!block_watch_.holds(records, weight, -limit)) renew_blocks(records, limit);
+    if (!block_watch_.holds(records, weight, limit)) renew_blocks(records, limit);
     renew_pairs(records, limit);
   }
   return {static_cast<int>(count_), pair_node_.data(), pair_first_.data(), pair_second_.data(),

@@ -30,14 +30,14 @@ void MotionWatch<T>::mark(const kernels::NodeRecord<T>* records, T limit) {
 }
 
 template <class T>
-bool MotionWatch<T>::look(const kernels::NodeRecord<T>* records, const T* weight, T more) {
+bool MotionWatch<T>::look(const kernels::NodeRecord<T>* records, const T* weight, T ahead) {
   if (!marked_) return false;
   const kernels::RigidMotion<T> motion =
       kernels::fit_rigid_motion(records, x_.data(), y_.data(), weight, groups_);
   const T farthest =
       std::sqrt(kernels::farthest_move2(records, x_.data(), y_.data(), weight, groups_, motion));
   // Nodes that are no number do not show in the farthest, but in the fit.
-  if (!(farthest < limit_ + more) || !std::isfinite(motion.to_x + motion.to_y)) return false;
+  if (!(farthest < limit_ - ahead) || !std::isfinite(motion.to_x + motion.to_y)) return false;
   farthest_out_ += largest(travelled_);
   start_anew(limit_ - farthest);
   return true;

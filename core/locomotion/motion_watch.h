@@ -23,16 +23,16 @@ class MotionWatch {
   /// Says that every node has moved, by no more than what is in its lane of `way`.
   void advance(kernels::Lanes<T> way) { travelled_ += way + kernels::Lanes<T>(rounding_); }
 
-  /// Whether no node is farther than the limit, and `more` (or less), from where some rigid motion
-  /// since the mark carries it. `weight`: 1, or 0 in idle lanes. Never true without a mark.
-  bool holds(const kernels::NodeRecord<T>* records, const T* weight, T more) {
-    if (all(travelled_ < kernels::Lanes<T>(slack_ + more))) return true;
-    return look(records, weight, more);
+  /// Whether every node is nearer than the limit, less `ahead`, to where some rigid motion since
+  /// the mark carries it. `weight`: 1, or 0 in idle lanes. Never true without a mark.
+  bool holds(const kernels::NodeRecord<T>* records, const T* weight, T ahead) {
+    if (all(travelled_ < kernels::Lanes<T>(slack_ - ahead))) return true;
+    return look(records, weight, ahead);
   }
 
  private:
   void start_anew(T slack);
-  bool look(const kernels::NodeRecord<T>* records, const T* weight, T more);
+  bool look(const kernels::NodeRecord<T>* records, const T* weight, T ahead);
 
   int groups_ = 0;
   T limit_ = 0;

@@ -101,40 +101,32 @@ Told NeatSearch::tell(std::span<const Evaluation> evaluations) {
 }
 
 std::vector<Table> NeatSearch::tables() const {
-  using Type = Table::Type;
+  using enum Table::Type;
   std::vector<Table> tables = {
       {"populations",
-       {{"generation", Type::integer},
-        {"species", Type::integer},
-        {"compatibility_threshold", Type::real}},
+       {{"generation", integer}, {"species", integer}, {"compatibility_threshold", real}},
        1},
-      {"members",
-       {{"generation", Type::integer}, {"position", Type::integer}, {"species", Type::integer}},
-       2},
+      {"members", {{"generation", integer}, {"position", integer}, {"species", integer}}, 2},
       {"species",
-       {{"generation", Type::integer},
-        {"id", Type::integer},
-        {"age", Type::integer},
-        {"size", Type::integer},
-        {"best_ever", Type::real},
-        {"stagnant", Type::integer},
-        {"best_score", Type::real},
-        {"mean_score", Type::real}},
+       {{"generation", integer},
+        {"id", integer},
+        {"age", integer},
+        {"size", integer},
+        {"best_ever", real},
+        {"stagnant", integer},
+        {"best_score", real},
+        {"mean_score", real}},
        2},
       // Better, and dead (0), by the geometric mean of the measured objectives.
       origins_table(false),
       // In which generation a species was founded, or why it is no more.
-      {"species_changes",
-       {{"generation", Type::integer}, {"species", Type::integer}, {"change", Type::text}},
-       2}};
+      {"species_changes", {{"generation", integer}, {"species", integer}, {"change", text}}, 2}};
   // How many links a genome has, in the mean, that are expressed in these stages of life.
   if (settings_.separation != Separation::none) {
-    tables.push_back({"gene_stages",
-                      {{"generation", Type::integer},
-                       {"first", Type::integer},
-                       {"last", Type::integer},
-                       {"links", Type::real}},
-                      3});
+    tables.push_back(
+        {"gene_stages",
+         {{"generation", integer}, {"first", integer}, {"last", integer}, {"links", real}},
+         3});
   }
   for (Table& table : scorer_->tables()) tables.push_back(std::move(table));
   return tables;

@@ -14,13 +14,14 @@ namespace metamorph::evolve {
 namespace {
 
 using Json = nlohmann::json;
+using enum Table::Type;
 
 const Table pool_table = {"pool",
-                          {{"generation", Table::Type::integer},
-                           {"position", Table::Type::integer},
-                           {"individual", Table::Type::integer},
-                           {"born", Table::Type::integer},
-                           {"quality", Table::Type::real}},
+                          {{"generation", integer},
+                           {"position", integer},
+                           {"individual", integer},
+                           {"born", integer},
+                           {"quality", real}},
                           2};
 
 // The bindings name every field: a new one does not compile before it is thought of here.
